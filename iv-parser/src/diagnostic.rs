@@ -1,0 +1,95 @@
+//! What went wrong in an input, where, and what to do about it.
+//!
+//! A diagnostic owns all it says, so it outlives the bytes it speaks of. Losses of an output
+//! format are not diagnostics; they belong to the writer.
+
+use std::fmt;
+use std::sync::Arc;
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing; nothing was guessed.
+    Note,
+    /// Something was guessed, replaced or left out; the rest is right.
+    Warning,
+    /// A part of the input could not be used.
+    Error,
+}
+
+/// A place in a file: line and column count from 1, columns in bytes. Line 0 means "no place".
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SourcePos {
+    /// Index into the list of files read (0 = the file named by the user).
+    pub file: u32,
+    /// Line, from 1; 0 when the place is not known.
+    pub line: u32,
+    /// Column in bytes, from 1.
+    pub column: u32,
+}
+
+/// The text around a place, kept for display.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Snippet {
+    /// The line, without its end; cut to a readable length.
+    pub line: String,
+    /// First marked character of `line`, in characters, from 0.
+    pub start: usize,
+    /// Number of characters marked, at least 1.
+    pub len: usize,
+}
+
+/// One remark about the input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// Stable short name, such as `unknown-field`.
+    pub code: &'static str,
+    /// One sentence without a full stop.
+    pub message: String,
+    /// What to do, or what was done instead; may be empty.
+    pub hint: String,
+    /// Name of the file as it should be shown.
+    pub file: Arc<str>,
+    /// Where; line 0 when not known.
+    pub pos: SourcePos,
+    /// The text there, where it was at hand.
+    pub snippet: Option<Snippet>,
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        })
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file)?;
+        if self.pos.line > 0 {
+            write!(f, ":{}:{}", self.pos.line, self.pos.column)?;
+        }
+        write!(f, ": {}[{}]: {}", self.severity, self.code, self.message)?;
+        let number = self.pos.line.to_string();
+        if let Some(snippet) = &self.snippet {
+            let pad = " ".repeat(number.len());
+            write!(f, "\n {number} | {}", snippet.line)?;
+            write!(
+                f,
+                "\n {pad} | {}{}",
+                " ".repeat(snippet.start),
+                "^".repeat(snippet.len)
+            )?;
+        }
+        if !self.hint.is_empty() {
+            let pad = " ".repeat(number.len());
+            write!(f, "\n {pad} = {}", self.hint)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,119 @@
+//! Tokens other than numbers: blanks and comments, names, words and strings.
+//!
+//! Every function takes the whole text and a position, and returns the position after the token.
+
+use memchr::memchr2;
+use nom::IResult;
+use nom::Parser;
+use nom::bytes::complete::{take_while, take_while1};
+use nom::combinator::recognize;
+
+/// White space of Inventor files.
+pub fn is_blank(b: u8) -> bool {
+    matches!(b, b' ' | b'\t' | b'\n' | b'\r' | 0x0b | 0x0c)
+}
+
+fn is_name_start(b: u8) -> bool {
+    b.is_ascii_alphabetic() || b == b'_' || b >= 0x80
+}
+
+fn is_name_part(b: u8) -> bool {
+    is_name_start(b) || b.is_ascii_digit()
+}
+
+/// Characters that end an unquoted word.
+fn ends_word(b: u8) -> bool {
+    is_blank(b)
+        || matches!(
+            b,
+            b'{' | b'}' | b'[' | b']' | b'"' | b'#' | b',' | b'|' | b'(' | b')' | b'~' | 0
+        )
+}
+
+/// Skips blanks and comments.
+pub fn skip_trivia(bytes: &[u8], mut at: usize) -> usize {
+    while let Some(&b) = bytes.get(at) {
+        if is_blank(b) {
+            at += 1;
+        } else if b == b'#' {
+            at = skip_comment(bytes, at);
+        } else {
+            break;
+        }
+    }
+    at
+}
+
+/// From `#` to the line's end, which may be a lone CR.
+pub fn skip_comment(bytes: &[u8], at: usize) -> usize {
+    memchr2(b'\n', b'\r', &bytes[at..]).map_or(bytes.len(), |i| at + i)
+}
+
+fn plain_name(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    recognize((take_while1(is_name_start), take_while(is_name_part))).parse(input)
+}
+
+/// The end of the identifier at `at`; `None` if there is none. Parts joined by `.` belong to it
+/// (`appearance.material`), as node kits write them.
+pub fn name(bytes: &[u8], at: usize) -> Option<usize> {
+    let (rest, _) = plain_name(bytes.get(at..)?).ok()?;
+    let mut end = bytes.len() - rest.len();
+    while bytes.get(end) == Some(&b'.') {
+        let Ok((rest, _)) = plain_name(&bytes[end + 1..]) else {
+            break;
+        };
+        end = bytes.len() - rest.len();
+    }
+    Some(end)
+}
+
+/// The end of an unquoted word: an enum word, a bool, or a string without quotes.
+pub fn word(bytes: &[u8], at: usize) -> usize {
+    let found: IResult<&[u8], &[u8]> = take_while(|b| !ends_word(b))(&bytes[at..]);
+    found.map_or(at, |(rest, _)| bytes.len() - rest.len())
+}
+
+/// The end of everything up to the next blank.
+pub fn to_blank(bytes: &[u8], at: usize) -> usize {
+    let found: IResult<&[u8], &[u8]> = take_while(|b| !is_blank(b))(&bytes[at..]);
+    found.map_or(at, |(rest, _)| bytes.len() - rest.len())
+}
+
+/// How a quoted string ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StringEnd {
+    /// At its closing quote.
+    Closed,
+    /// Only when a backslash before a quote was taken as part of the text (`"C:\tex\"`).
+    BackslashQuote,
+    /// Nowhere; the string was cut at the end of its line.
+    Unclosed,
+}
+
+/// The string whose opening quote is at `at`: the end of its text, the position after it, and how
+/// it ended. `\"` is a quote in the text, except right before a line end.
+pub fn string(bytes: &[u8], at: usize) -> (usize, usize, StringEnd) {
+    let start = at + 1;
+    let mut first_escape = None;
+    let mut i = start;
+    while let Some(found) = memchr2(b'"', b'\\', &bytes[i..]) {
+        let hit = i + found;
+        if bytes[hit] == b'"' {
+            return (hit, hit + 1, StringEnd::Closed);
+        }
+        if bytes.get(hit + 1) == Some(&b'"') {
+            if matches!(bytes.get(hit + 2), Some(b'\n' | b'\r')) {
+                return (hit + 1, hit + 2, StringEnd::Closed);
+            }
+            first_escape.get_or_insert(hit + 1);
+            i = hit + 2;
+        } else {
+            i = hit + 1;
+        }
+    }
+    if let Some(quote) = first_escape {
+        return (quote, quote + 1, StringEnd::BackslashQuote);
+    }
+    let line_end = memchr2(b'\n', b'\r', &bytes[start..]).map_or(bytes.len(), |i| start + i);
+    (line_end, line_end, StringEnd::Unclosed)
+}

@@ -1,0 +1,32 @@
+//! Open Inventor syntax: bytes to a syntax tree with diagnostics, and back to text.
+//!
+//! This crate knows tokens, braces, numbers and names. It knows no node class, no field type and
+//! no default; what a tree means is the business of `scenegraph`. [`parse`] is total: any bytes
+//! give a tree, and a [`Problem`] for each thing that was not as it should be.
+//!
+//! ```
+//! let parse = iv_parser::parse(b"#Inventor V2.1 ascii\nDEF Door Cube { width 2 }");
+//! assert!(parse.problems.is_empty());
+//! let iv_parser::Child::Node(door) = parse.tree.children_of_root()[0] else { panic!() };
+//! assert_eq!(parse.tree.node(door).class, b"Cube");
+//! ```
+
+mod diagnostic;
+mod header;
+mod lex;
+mod limits;
+mod number;
+mod parse;
+mod print;
+mod source;
+mod text;
+mod tree;
+
+pub use diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
+pub use header::{Dialect, Encoding, Header};
+pub use limits::Limits;
+pub use parse::{Parse, parse, parse_with};
+pub use print::{Layout, print};
+pub use source::{LineCounter, Problem, Source, Span};
+pub use text::{decode_string, text_of};
+pub use tree::{Atom, Child, Connection, Field, FieldId, Item, Node, NodeId, Numbers, Tree, Value};

@@ -1,0 +1,305 @@
+//! The grammar: a total function from bytes to a tree.
+//!
+//! Nesting lives on an explicit stack of [`Frame`]s, so input cannot deepen the call stack. Each
+//! step consumes at least one byte or pops a frame, so parsing ends. An error costs the smallest
+//! thing that can be skipped: a token, a value, a balanced body.
+
+mod body;
+mod numbers;
+mod recover;
+mod value;
+
+use crate::diagnostic::Severity;
+use crate::header::read_header;
+use crate::lex;
+use crate::limits::Limits;
+use crate::source::{Problem, Span};
+use crate::tree::{Atom, Child, FieldId, Item, Node, NodeId, Tree};
+
+/// A tree, and what was wrong with its text.
+#[derive(Clone, Debug)]
+pub struct Parse<'a> {
+    /// The tree; never missing anything that could be read.
+    pub tree: Tree<'a>,
+    /// In order of discovery.
+    pub problems: Vec<Problem>,
+    /// How many more problems there were than the limit allows to keep.
+    pub problems_dropped: usize,
+}
+
+/// Parses with the default [`Limits`].
+pub fn parse(bytes: &[u8]) -> Parse<'_> {
+    parse_with(bytes, &Limits::default())
+}
+
+/// Parses any bytes.
+pub fn parse_with<'a>(bytes: &'a [u8], limits: &Limits) -> Parse<'a> {
+    let mut problems = Vec::new();
+    let (header, start) = read_header(bytes, &mut problems);
+    let mut parser = Parser {
+        bytes: &bytes[..bytes.len().min(limits.bytes)],
+        at: start,
+        limits: *limits,
+        tree: Tree::new(bytes, header),
+        frames: Vec::new(),
+        open_items: Vec::new(),
+        open_atoms: Vec::new(),
+        odd_names: Vec::new(),
+        run: numbers::Run::default(),
+        problems,
+        problems_dropped: 0,
+        overflow_reported: false,
+        nan_reported: false,
+    };
+    if bytes.len() > limits.bytes {
+        parser.problem(
+            Severity::Error,
+            "too-large",
+            "the text is longer than can be read",
+            "only the beginning was read; split the model into several files",
+            Span::new(0, 0),
+        );
+    }
+    parser.run();
+    Parse {
+        tree: parser.tree,
+        problems: parser.problems,
+        problems_dropped: parser.problems_dropped,
+    }
+}
+
+/// What is being read.
+#[derive(Clone, Copy, Debug)]
+enum Frame {
+    /// Between a node's braces; its items begin at `items` of the stack of open items.
+    Body { node: NodeId, items: usize },
+    /// Between the brackets of a list that is not all numbers.
+    List {
+        field: FieldId,
+        atoms: usize,
+        open: usize,
+    },
+    /// Right behind a field's node value.
+    AfterValue(FieldId),
+    /// Right behind the master node of a connection.
+    AfterMaster(FieldId),
+}
+
+struct Parser<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    limits: Limits,
+    tree: Tree<'a>,
+    frames: Vec<Frame>,
+    open_items: Vec<Item<'a>>,
+    open_atoms: Vec<Atom<'a>>,
+    /// DEF names that hold braces or brackets.
+    odd_names: Vec<&'a [u8]>,
+    /// Buffers for the run of numbers being read.
+    run: numbers::Run,
+    problems: Vec<Problem>,
+    problems_dropped: usize,
+    overflow_reported: bool,
+    nan_reported: bool,
+}
+
+impl<'a> Parser<'a> {
+    fn run(&mut self) {
+        loop {
+            match self.frames.last().copied() {
+                None => {
+                    if !self.root_step() {
+                        return;
+                    }
+                }
+                Some(Frame::Body { node, items }) => self.body_step(node, items),
+                Some(Frame::List { field, atoms, open }) => self.list_step(field, atoms, open),
+                Some(Frame::AfterValue(field)) => {
+                    self.frames.pop();
+                    self.after_value(field);
+                }
+                Some(Frame::AfterMaster(field)) => {
+                    self.frames.pop();
+                    self.master_output(field);
+                }
+            }
+        }
+    }
+
+    /// Reads one thing at the top level; false at the end of the text.
+    fn root_step(&mut self) -> bool {
+        self.skip_trivia();
+        let Some(b) = self.peek() else { return false };
+        if let Some(child) = self.opt_child() {
+            self.tree.roots.push(child);
+        } else if b == b'}' {
+            self.at += 1;
+            self.warn(
+                "extra-brace",
+                "a closing brace without an opening one",
+                "it was ignored",
+                Span::new(self.at - 1, self.at),
+            );
+        } else {
+            let start = self.at;
+            self.skip_junk();
+            self.warn(
+                "not-a-node",
+                "a node was expected here",
+                "it was skipped; nodes are written `ClassName { … }`",
+                Span::new(start, self.at),
+            );
+        }
+        true
+    }
+
+    /// `DEF name Class {`, `Class {`, `USE name` or `NULL`, if one is here. An opened body is put
+    /// on the stack and read next.
+    fn opt_child(&mut self) -> Option<Child<'a>> {
+        if self.peek() == Some(b'{') {
+            let start = self.at;
+            self.at += 1;
+            self.warn(
+                "no-class",
+                "a body without a class name",
+                "its contents were kept",
+                Span::new(start, start + 1),
+            );
+            return Some(self.open_node(b"", None, start));
+        }
+        let start = self.at;
+        let end = lex::name(self.bytes, start)?;
+        match &self.bytes[start..end] {
+            b"DEF" => self.opt_definition(start, end),
+            b"USE" => {
+                self.at = end;
+                self.skip_trivia();
+                let (name, span) = self.use_name();
+                Some(Child::Use(name, span))
+            }
+            b"NULL" if !self.is_body_next(end) => {
+                self.at = end;
+                Some(Child::Null)
+            }
+            class => {
+                if !self.is_body_next(end) {
+                    return None;
+                }
+                self.at = lex::skip_trivia(self.bytes, end) + 1;
+                Some(self.open_node(class, None, start))
+            }
+        }
+    }
+
+    fn is_body_next(&self, at: usize) -> bool {
+        self.bytes.get(lex::skip_trivia(self.bytes, at)) == Some(&b'{')
+    }
+
+    fn opt_definition(&mut self, start: usize, end: usize) -> Option<Child<'a>> {
+        let name_start = lex::skip_trivia(self.bytes, end);
+        let full = lex::to_blank(self.bytes, name_start);
+        // As in Coin a name goes on to the next blank; if no class follows it, it was glued.
+        let cuts = [full, self.first_bracket(name_start, full)];
+        for name_end in cuts {
+            let name = &self.bytes[name_start..name_end];
+            let class_start = lex::skip_trivia(self.bytes, name_end);
+            let Some(class_end) = lex::name(self.bytes, class_start) else {
+                continue;
+            };
+            if name.is_empty() || !self.is_body_next(class_end) {
+                continue;
+            }
+            if name_end == full && self.first_bracket(name_start, full) < full {
+                self.odd_names.push(name);
+            }
+            self.at = lex::skip_trivia(self.bytes, class_end) + 1;
+            let class = &self.bytes[class_start..class_end];
+            return Some(self.open_node(class, Some(name), class_start));
+        }
+        self.at = full.max(end);
+        self.warn(
+            "bad-def",
+            "`DEF` is not followed by a name and a node",
+            "write `DEF name ClassName { … }`; this one was skipped",
+            Span::new(start, self.at),
+        );
+        Some(Child::Null)
+    }
+
+    fn first_bracket(&self, start: usize, end: usize) -> usize {
+        let is_bracket = |b: &u8| matches!(b, b'{' | b'}' | b'[' | b']' | b',');
+        self.bytes[start..end]
+            .iter()
+            .position(is_bracket)
+            .map_or(end, |i| start + i)
+    }
+
+    /// The name behind `USE`: up to the next blank, or up to a bracket glued to it.
+    fn use_name(&mut self) -> (&'a [u8], Span) {
+        let start = self.at;
+        let full = lex::to_blank(self.bytes, start);
+        let cut = self.first_bracket(start, full);
+        let whole: &'a [u8] = &self.bytes[start..full];
+        let end = if cut < full && self.odd_names.contains(&whole) {
+            full
+        } else {
+            cut
+        };
+        self.at = end;
+        (&self.bytes[start..end], Span::new(start, end))
+    }
+
+    fn open_node(&mut self, class: &'a [u8], def: Option<&'a [u8]>, start: usize) -> Child<'a> {
+        let id = NodeId(self.tree.nodes.len() as u32);
+        let span = Span::new(start, self.at);
+        self.tree.nodes.push(Node::new(class, def, span));
+        if self.frames.len() >= self.limits.depth {
+            self.skip_body();
+            self.tree.nodes[id.0 as usize].span.end = self.at as u32;
+            self.problem(
+                Severity::Error,
+                "too-deep",
+                &format!("nodes are nested deeper than {} levels", self.limits.depth),
+                "the contents of this node were skipped",
+                span,
+            );
+        } else {
+            let items = self.open_items.len();
+            self.frames.push(Frame::Body { node: id, items });
+        }
+        Child::Node(id)
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.bytes.get(self.at).copied()
+    }
+
+    fn skip_trivia(&mut self) {
+        self.at = lex::skip_trivia(self.bytes, self.at);
+    }
+
+    fn warn(&mut self, code: &'static str, message: &str, hint: &str, span: Span) {
+        self.problem(Severity::Warning, code, message, hint, span);
+    }
+
+    fn problem(
+        &mut self,
+        severity: Severity,
+        code: &'static str,
+        message: &str,
+        hint: &str,
+        span: Span,
+    ) {
+        if self.problems.len() >= self.limits.problems {
+            self.problems_dropped += 1;
+            return;
+        }
+        self.problems.push(Problem {
+            severity,
+            code,
+            message: message.to_owned(),
+            hint: hint.to_owned(),
+            span,
+        });
+    }
+}

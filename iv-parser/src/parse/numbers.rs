@@ -1,0 +1,244 @@
+//! Runs of numbers in bulk: one pass, no object a number.
+//!
+//! Which fields hold integers is not known here, so a run begins as integers and turns into floats
+//! at the first token with a point, an exponent or a large value.
+
+use std::sync::Arc;
+
+use super::Parser;
+use crate::diagnostic::Severity;
+use crate::lex;
+use crate::number::{Number, Remark, number};
+use crate::source::Span;
+use crate::tree::{FieldId, Numbers, Value};
+
+/// Runs at least this long get an array of their own, to be passed on without copying.
+const MANY: usize = 64;
+
+impl Parser<'_> {
+    /// Whether a number, or a word for one that is not a number, is here.
+    pub(super) fn number_here(&self) -> bool {
+        match self.peek() {
+            Some(b'0'..=b'9') => true,
+            Some(b'+' | b'-' | b'.') => {
+                number(self.bytes, self.at).is_some() || self.nan_word(self.at).is_some()
+            }
+            Some(b'n' | b'N' | b'i' | b'I') => self.nan_word(self.at).is_some(),
+            _ => false,
+        }
+    }
+
+    /// The end of `nan`, `inf` and the like, with or without a sign.
+    fn nan_word(&self, at: usize) -> Option<usize> {
+        let start = at + usize::from(matches!(self.bytes.get(at), Some(b'+' | b'-')));
+        let end = lex::name(self.bytes, start)?;
+        let word = &self.bytes[start..end];
+        [&b"nan"[..], b"inf", b"infinity", b"ind"]
+            .iter()
+            .any(|w| word.eq_ignore_ascii_case(w))
+            .then_some(end)
+    }
+
+    /// The run of numbers here, in brackets (the opening one is behind us) or not.
+    pub(super) fn numbers(&mut self, field: FieldId, bracketed: bool) {
+        let open = self.at;
+        let mut run = std::mem::take(&mut self.run);
+        let mut octal = false;
+        let mut end = self.at;
+        let mut comma = false;
+        loop {
+            let mut at = self.at;
+            while self.bytes.get(at).copied().is_some_and(lex::is_blank) {
+                at += 1;
+            }
+            self.at = at;
+            if let Some((value, after, remark)) = number(self.bytes, at) {
+                if remark != Remark::None {
+                    octal |= remark == Remark::Octal;
+                    self.remark(remark, Span::new(at, after));
+                }
+                run.push(value);
+                end = after;
+                self.at = after;
+                comma = false;
+                continue;
+            }
+            match self.peek() {
+                Some(b'#') => self.at = lex::skip_comment(self.bytes, at),
+                Some(b',') if bracketed || self.number_follows_comma(at) => {
+                    if comma {
+                        self.warn(
+                            "stray-comma",
+                            "two commas in a row",
+                            "one was ignored",
+                            Span::new(at, at + 1),
+                        );
+                    } else if !bracketed {
+                        self.warn(
+                            "no-brackets",
+                            "several values without brackets",
+                            "they were taken as a list; write `[ a, b ]`",
+                            Span::new(at, at + 1),
+                        );
+                    }
+                    comma = true;
+                    self.at += 1;
+                }
+                _ => {
+                    if let Some(after) = self.nan_word(at) {
+                        self.remark(Remark::NotANumber, Span::new(at, after));
+                        run.push(Number::Float(0.0));
+                        end = after;
+                        self.at = after;
+                    } else if !bracketed {
+                        self.at = end;
+                        break;
+                    } else if self.end_of_list(open) {
+                        break;
+                    }
+                }
+            }
+        }
+        let span = Span::new(open, end);
+        let numbers = self.store(run);
+        self.tree.fields[field.0 as usize].value = Value::Numbers {
+            numbers,
+            bracketed,
+            octal,
+            span,
+        };
+    }
+
+    fn number_follows_comma(&self, at: usize) -> bool {
+        let next = lex::skip_trivia(self.bytes, at + 1);
+        number(self.bytes, next).is_some()
+    }
+
+    /// Something that is no number, in brackets: true if the list ends here.
+    fn end_of_list(&mut self, open: usize) -> bool {
+        let at = self.at;
+        match self.peek() {
+            Some(b']') => {
+                self.at += 1;
+                true
+            }
+            None | Some(b'}' | b'{') => {
+                self.missing_bracket(open.saturating_sub(1));
+                true
+            }
+            Some(_) => {
+                // A word with a value behind it is the next field: the bracket was forgotten.
+                if let Some(end) = lex::name(self.bytes, at) {
+                    let next = self.bytes.get(lex::skip_trivia(self.bytes, end));
+                    if matches!(next, Some(b'[' | b'{' | b'"' | b'a'..=b'z' | b'A'..=b'Z')) {
+                        self.missing_bracket(open.saturating_sub(1));
+                        return true;
+                    }
+                }
+                self.skip_junk();
+                self.warn(
+                    "not-a-number",
+                    "this is not a number",
+                    "it was left out of the list",
+                    Span::new(at, self.at),
+                );
+                false
+            }
+        }
+    }
+
+    #[cold]
+    fn remark(&mut self, remark: Remark, span: Span) {
+        let (reported, code, message, hint) = match remark {
+            Remark::None | Remark::Octal => return,
+            Remark::NoExponent => (
+                false,
+                "bad-exponent",
+                "an exponent without digits",
+                "it was ignored",
+            ),
+            Remark::Overflow => (
+                std::mem::replace(&mut self.overflow_reported, true),
+                "overflow",
+                "a number is too large for any field",
+                "it was cut to the largest one; later ones are not reported",
+            ),
+            Remark::NotANumber => (
+                std::mem::replace(&mut self.nan_reported, true),
+                "not-a-number",
+                "a value that is not a number",
+                "it was read as 0; later ones are not reported",
+            ),
+        };
+        if !reported {
+            self.problem(Severity::Warning, code, message, hint, span);
+        }
+    }
+
+    fn store(&mut self, mut run: Run) -> Numbers {
+        let numbers = match (run.is_float, run.len()) {
+            (false, ..MANY) => {
+                let start = self.tree.ints.len();
+                self.tree.ints.extend_from_slice(&run.ints);
+                Numbers::Ints(start as u32, self.tree.ints.len() as u32)
+            }
+            (true, ..MANY) => {
+                let start = self.tree.floats.len();
+                self.tree.floats.extend_from_slice(&run.floats);
+                Numbers::Floats(start as u32, self.tree.floats.len() as u32)
+            }
+            (false, _) => {
+                run.ints.shrink_to_fit();
+                Numbers::ManyInts(Arc::new(std::mem::take(&mut run.ints)))
+            }
+            (true, _) => {
+                run.floats.shrink_to_fit();
+                Numbers::ManyFloats(Arc::new(std::mem::take(&mut run.floats)))
+            }
+        };
+        run.clear();
+        self.run = run;
+        numbers
+    }
+}
+
+/// The numbers of a run read so far: in `ints` until the first float, then in `floats`.
+#[derive(Default)]
+pub(super) struct Run {
+    ints: Vec<i32>,
+    floats: Vec<f64>,
+    is_float: bool,
+}
+
+impl Run {
+    #[inline(always)]
+    fn push(&mut self, value: Number) {
+        match (self.is_float, value) {
+            (false, Number::Int(i)) => self.ints.push(i),
+            (true, Number::Float(f)) => self.floats.push(f),
+            (true, Number::Int(i)) => self.floats.push(f64::from(i)),
+            (false, Number::Float(f)) => self.widen(f),
+        }
+    }
+
+    #[cold]
+    fn widen(&mut self, next: f64) {
+        self.floats.extend(self.ints.iter().map(|&i| f64::from(i)));
+        self.floats.push(next);
+        self.is_float = true;
+    }
+
+    fn len(&self) -> usize {
+        if self.is_float {
+            self.floats.len()
+        } else {
+            self.ints.len()
+        }
+    }
+
+    fn clear(&mut self) {
+        self.ints.clear();
+        self.floats.clear();
+        self.is_float = false;
+    }
+}

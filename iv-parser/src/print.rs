@@ -1,0 +1,267 @@
+//! A tree as ASCII text again.
+//!
+//! Everything of the tree is kept: names, unknown nodes and fields, flags, connections, the
+//! values to the last bit (numbers are printed with the fewest digits that read back equal).
+//! Comments and the layout are not kept.
+
+use std::io::{self, Write};
+
+use crate::header::{Dialect, Encoding};
+use crate::tree::{Atom, Child, Field, Item, NodeId, Numbers, Tree, Value};
+
+/// What the printer asks about a field: how to lay out its numbers.
+pub trait Layout {
+    /// Numbers in one value of the field (3 for a point), or 0 when not known. SGI's reader wants
+    /// a comma between the values of a list.
+    fn tuple_size(&self, class: &[u8], field: &[u8]) -> usize;
+}
+
+/// What is left to print, last first.
+enum Step<'t, 'a> {
+    Body(NodeId, usize),
+    Atoms(&'t [Atom<'a>], usize),
+    CloseList,
+    Tail(&'t Field<'a>),
+    Output(&'a [u8]),
+    EndLine,
+}
+
+struct Printer<'t, 'a, 'o> {
+    tree: &'t Tree<'a>,
+    layout: &'o dyn Layout,
+    out: &'o mut dyn Write,
+    steps: Vec<Step<'t, 'a>>,
+    indent: usize,
+}
+
+/// Writes the whole tree, header first.
+///
+/// # Errors
+///
+/// Those of `out`.
+pub fn print(tree: &Tree<'_>, layout: &dyn Layout, out: &mut dyn Write) -> io::Result<()> {
+    let (major, minor) = tree.header.version;
+    match (tree.header.dialect, tree.header.encoding) {
+        (Dialect::Inventor, _) => writeln!(out, "#Inventor V{major}.{minor} ascii\n")?,
+        (Dialect::Vrml1, Encoding::Ascii | Encoding::Binary) => {
+            writeln!(out, "#VRML V{major}.{minor} ascii\n")?
+        }
+        (Dialect::Vrml2, _) => writeln!(out, "#VRML V{major}.{minor} utf8\n")?,
+    }
+    let mut printer = Printer {
+        tree,
+        layout,
+        out,
+        steps: Vec::new(),
+        indent: 0,
+    };
+    for &root in tree.children_of_root() {
+        printer.child(root)?;
+        printer.run()?;
+        printer.out.write_all(b"\n")?;
+    }
+    Ok(())
+}
+
+impl<'t, 'a> Printer<'t, 'a, '_> {
+    fn run(&mut self) -> io::Result<()> {
+        while let Some(step) = self.steps.pop() {
+            match step {
+                Step::Body(node, next) => self.body(node, next)?,
+                Step::Atoms(atoms, next) => self.atoms(atoms, next)?,
+                Step::CloseList => self.out.write_all(b" ]")?,
+                Step::Tail(field) => self.tail(field)?,
+                Step::Output(name) => {
+                    self.out.write_all(b" . ")?;
+                    self.out.write_all(name)?;
+                }
+                Step::EndLine => self.out.write_all(b"\n")?,
+            }
+        }
+        Ok(())
+    }
+
+    fn pad(&mut self) -> io::Result<()> {
+        const BLANKS: &[u8] = b"                                ";
+        self.out
+            .write_all(&BLANKS[..(2 * self.indent).min(BLANKS.len())])
+    }
+
+    fn child(&mut self, child: Child<'a>) -> io::Result<()> {
+        match child {
+            Child::Null => self.out.write_all(b"NULL"),
+            Child::Use(name, _) => {
+                self.out.write_all(b"USE ")?;
+                self.out.write_all(name)
+            }
+            Child::Node(id) => {
+                let node = self.tree.node(id);
+                if let Some(name) = node.def {
+                    self.out.write_all(b"DEF ")?;
+                    self.out.write_all(name)?;
+                    self.out.write_all(b" ")?;
+                }
+                self.out.write_all(if node.class.is_empty() {
+                    b"Group"
+                } else {
+                    node.class
+                })?;
+                if self.tree.items(id).is_empty() {
+                    return self.out.write_all(b" { }");
+                }
+                self.out.write_all(b" {\n")?;
+                self.indent += 1;
+                self.steps.push(Step::Body(id, 0));
+                Ok(())
+            }
+        }
+    }
+
+    fn body(&mut self, id: NodeId, next: usize) -> io::Result<()> {
+        match self.tree.items(id).get(next).copied() {
+            None => {
+                self.indent -= 1;
+                self.pad()?;
+                return self.out.write_all(b"}");
+            }
+            Some(Item::Child(child)) => {
+                self.steps.push(Step::Body(id, next + 1));
+                self.steps.push(Step::EndLine);
+                self.pad()?;
+                self.child(child)?;
+            }
+            Some(Item::Field(field)) => {
+                self.steps.push(Step::Body(id, next + 1));
+                self.steps.push(Step::EndLine);
+                let field = self.tree.field(field);
+                self.pad()?;
+                self.out.write_all(field.name)?;
+                self.steps.push(Step::Tail(field));
+                self.value(self.tree.node(id).class, field)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn value(&mut self, class: &[u8], field: &'t Field<'a>) -> io::Result<()> {
+        match &field.value {
+            Value::Missing => Ok(()),
+            Value::Mask(range) => {
+                self.out.write_all(b" (")?;
+                for (i, atom) in self.tree.atoms(*range).iter().enumerate() {
+                    if let Atom::Word(word, _) = atom {
+                        self.out.write_all(if i == 0 { b"" } else { b" | " })?;
+                        self.out.write_all(word)?;
+                    }
+                }
+                self.out.write_all(b")")
+            }
+            Value::Atoms { atoms, bracketed } => {
+                self.out.write_all(if *bracketed { b" [ " } else { b" " })?;
+                if *bracketed {
+                    self.steps.push(Step::CloseList);
+                }
+                self.steps.push(Step::Atoms(self.tree.atoms(*atoms), 0));
+                Ok(())
+            }
+            Value::Numbers {
+                numbers,
+                bracketed,
+                octal,
+                span,
+            } => {
+                self.out.write_all(if *bracketed { b" [ " } else { b" " })?;
+                if *octal {
+                    // Which base a leading zero means depends on the reader: keep the tokens.
+                    self.out.write_all(&self.tree.source[span.range()])?;
+                } else {
+                    let tuple = self.layout.tuple_size(class, field.name);
+                    self.numbers(numbers, if *bracketed { tuple } else { 0 })?;
+                }
+                self.out.write_all(if *bracketed { b" ]" } else { b"" })
+            }
+        }
+    }
+
+    fn atoms(&mut self, atoms: &'t [Atom<'a>], next: usize) -> io::Result<()> {
+        let Some(atom) = atoms.get(next) else {
+            return Ok(());
+        };
+        if next > 0 {
+            self.out.write_all(b", ")?;
+        }
+        self.steps.push(Step::Atoms(atoms, next + 1));
+        match atom {
+            Atom::Number(value, _) => write_number(self.out, *value),
+            Atom::String(raw, _) => {
+                self.out.write_all(b"\"")?;
+                self.out.write_all(raw)?;
+                // A backslash at the end would take the quote with it, unless a line end follows.
+                let backslash =
+                    raw.last() == Some(&b'\\') && self.tree.header.dialect != Dialect::Vrml2;
+                self.out.write_all(if backslash { b"\"\n" } else { b"\"" })
+            }
+            Atom::Word(word, _) => self.out.write_all(word),
+            Atom::Child(child) => self.child(*child),
+        }
+    }
+
+    fn tail(&mut self, field: &'t Field<'a>) -> io::Result<()> {
+        if field.ignored {
+            self.out.write_all(b" ~")?;
+        }
+        if let Some(connection) = &field.connection {
+            self.out.write_all(b" = ")?;
+            self.steps.push(Step::Output(connection.output));
+            self.child(connection.master)?;
+        }
+        Ok(())
+    }
+
+    fn numbers(&mut self, numbers: &Numbers, tuple: usize) -> io::Result<()> {
+        let tree = self.tree;
+        if let Some(values) = tree.ints(numbers) {
+            for (i, value) in values.iter().enumerate() {
+                let line_ends = i > 0 && values[i - 1] < 0;
+                self.between(i, tuple, line_ends)?;
+                write!(self.out, "{value}")?;
+            }
+        } else if let Some(values) = tree.floats(numbers) {
+            for (i, value) in values.iter().enumerate() {
+                self.between(i, tuple, tuple > 1 && i % tuple == 0)?;
+                write_number(self.out, *value)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn between(&mut self, i: usize, tuple: usize, line_ends: bool) -> io::Result<()> {
+        if i == 0 {
+            return Ok(());
+        }
+        if tuple > 0 && i.is_multiple_of(tuple) {
+            self.out.write_all(b",")?;
+        }
+        if line_ends {
+            self.out.write_all(b"\n")?;
+            self.indent += 1;
+            self.pad()?;
+            self.indent -= 1;
+            return Ok(());
+        }
+        self.out.write_all(b" ")
+    }
+}
+
+/// The fewest digits that read back to the same f64; whole numbers without a point.
+fn write_number(out: &mut dyn Write, value: f64) -> io::Result<()> {
+    // Below 2^53 every whole number is exact in f64.
+    if value.fract() == 0.0
+        && value.abs() < 9_007_199_254_740_992.0
+        && !(value == 0.0 && value.is_sign_negative())
+    {
+        return write!(out, "{}", value as i64);
+    }
+    let mut buffer = zmij::Buffer::new();
+    out.write_all(buffer.format_finite(value).as_bytes())
+}

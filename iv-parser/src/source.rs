@@ -1,0 +1,165 @@
+//! Places in a source text: byte spans, lines and columns, and problems found there.
+
+use std::sync::Arc;
+
+use memchr::{memchr, memchr_iter, memrchr};
+
+use crate::diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
+
+/// A range of bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Span {
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The span of `start..end`.
+    pub fn new(start: usize, end: usize) -> Self {
+        Self {
+            start: start as u32,
+            end: end as u32,
+        }
+    }
+
+    /// As array positions.
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+/// A remark about a span, not yet tied to a line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// How bad it is.
+    pub severity: Severity,
+    /// Stable short name.
+    pub code: &'static str,
+    /// One sentence without a full stop.
+    pub message: String,
+    /// What to do, or what was done instead; may be empty.
+    pub hint: String,
+    /// Where.
+    pub span: Span,
+}
+
+/// A named text, to turn spans into places.
+#[derive(Clone, Copy, Debug)]
+pub struct Source<'a> {
+    /// Name for display.
+    pub name: &'a Arc<str>,
+    /// Index of the file among those read.
+    pub file: u32,
+    /// The text.
+    pub bytes: &'a [u8],
+}
+
+/// Longest part of a line that a snippet shows, in characters.
+const SNIPPET_CHARS: usize = 120;
+
+impl Source<'_> {
+    /// Line and column of a byte. Costs a pass over the text before it; for many places in order
+    /// use [`LineCounter`].
+    pub fn position(&self, at: usize) -> SourcePos {
+        LineCounter::new(self.file).position(self.bytes, at)
+    }
+
+    /// The problem with its place and the text there.
+    pub fn diagnostic(&self, problem: Problem) -> Diagnostic {
+        let at = (problem.span.start as usize).min(self.bytes.len());
+        Diagnostic {
+            severity: problem.severity,
+            code: problem.code,
+            message: problem.message,
+            hint: problem.hint,
+            file: Arc::clone(self.name),
+            pos: self.position(at),
+            snippet: self.snippet(at, problem.span.end as usize),
+        }
+    }
+
+    fn snippet(&self, at: usize, end: usize) -> Option<Snippet> {
+        let is_end = |b: &u8| *b == b'\n' || *b == b'\r';
+        let line_start = self.bytes[..at]
+            .iter()
+            .rposition(is_end)
+            .map_or(0, |i| i + 1);
+        let tail = &self.bytes[line_start..];
+        let line_end = line_start + tail.iter().position(is_end).unwrap_or(tail.len());
+        // Machine-written lines can be megabytes long: show a window around the place.
+        let from = if at - line_start > SNIPPET_CHARS / 2 {
+            at - SNIPPET_CHARS / 2
+        } else {
+            line_start
+        };
+        let to = line_end.min(from + SNIPPET_CHARS);
+        if from >= to {
+            return None;
+        }
+        let show = |bytes: &[u8]| {
+            String::from_utf8_lossy(bytes)
+                .chars()
+                .map(|c| if c == '\t' || c.is_control() { ' ' } else { c })
+                .collect::<String>()
+        };
+        let before = show(&self.bytes[from..at.min(to)]);
+        let marked = show(&self.bytes[at.min(to)..end.clamp(at, to).max(at.min(to))]);
+        let line = show(&self.bytes[from..to]);
+        Some(Snippet {
+            start: before.chars().count(),
+            len: marked.chars().count().max(1),
+            line: line.trim_end().to_owned(),
+        })
+    }
+}
+
+/// Turns increasing byte offsets into lines and columns with one pass over the text.
+///
+/// Lines end at LF, CRLF or a lone CR.
+#[derive(Clone, Debug)]
+pub struct LineCounter {
+    file: u32,
+    line: u32,
+    line_start: usize,
+    counted_to: usize,
+    ends_at_cr: Option<bool>,
+}
+
+impl LineCounter {
+    /// At the first byte of file number `file`.
+    pub fn new(file: u32) -> Self {
+        Self {
+            file,
+            line: 1,
+            line_start: 0,
+            counted_to: 0,
+            ends_at_cr: None,
+        }
+    }
+
+    /// The place of byte `at`. An offset before the last one asked for starts over.
+    pub fn position(&mut self, bytes: &[u8], at: usize) -> SourcePos {
+        let at = at.min(bytes.len());
+        if at < self.counted_to {
+            *self = Self::new(self.file);
+        }
+        // A text without any LF has old Macintosh line ends.
+        let ends_at_cr = *self
+            .ends_at_cr
+            .get_or_insert_with(|| memchr(b'\n', bytes).is_none());
+        let end = if ends_at_cr { b'\r' } else { b'\n' };
+        let passed = &bytes[self.counted_to..at];
+        self.line += memchr_iter(end, passed).count() as u32;
+        if let Some(i) = memrchr(end, passed) {
+            self.line_start = self.counted_to + i + 1;
+        }
+        self.counted_to = at;
+        SourcePos {
+            file: self.file,
+            line: self.line,
+            column: (at - self.line_start) as u32 + 1,
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! The syntax tree: nodes, fields and values in an arena, with spans.
+//!
+//! Names are borrowed from the source. Numbers stand in bulk: short lists in two shared pools,
+//! long ones in arrays of their own that later stages can take without copying.
+
+use std::sync::Arc;
+
+use crate::header::Header;
+use crate::lex;
+use crate::number;
+use crate::source::Span;
+
+/// Index of a [`Node`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct NodeId(pub u32);
+
+/// Index of a [`Field`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FieldId(pub u32);
+
+/// Something that stands where a node can stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Child<'a> {
+    /// A node written here.
+    Node(NodeId),
+    /// `USE name`.
+    Use(&'a [u8], Span),
+    /// `NULL`.
+    Null,
+}
+
+/// One entry of a node's body, in source order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Item<'a> {
+    /// A named value.
+    Field(FieldId),
+    /// A child node.
+    Child(Child<'a>),
+}
+
+/// `DEF name Class { … }`.
+#[derive(Clone, Debug)]
+pub struct Node<'a> {
+    /// Class name; empty for a body that stands without one.
+    pub class: &'a [u8],
+    /// The name behind `DEF`, with any `+N` suffix.
+    pub def: Option<&'a [u8]>,
+    /// From the class name to the closing brace.
+    pub span: Span,
+    items: (u32, u32),
+}
+
+/// `name value ~ = master . field`.
+#[derive(Clone, Debug)]
+pub struct Field<'a> {
+    /// Field name.
+    pub name: &'a [u8],
+    /// The value written.
+    pub value: Value,
+    /// Whether `~` follows.
+    pub ignored: bool,
+    /// What it is connected to.
+    pub connection: Option<Connection<'a>>,
+    /// Name and value.
+    pub span: Span,
+}
+
+/// The master of a connected field.
+#[derive(Clone, Debug)]
+pub struct Connection<'a> {
+    /// The node that owns the master field.
+    pub master: Child<'a>,
+    /// Name of the master field or engine output.
+    pub output: &'a [u8],
+}
+
+/// A field's value as written.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// None at all.
+    Missing,
+    /// Numbers only.
+    Numbers {
+        /// The numbers.
+        numbers: Numbers,
+        /// Whether they stand in `[ ]`.
+        bracketed: bool,
+        /// Whether a token has a leading zero, so that an integer field must read the text again.
+        octal: bool,
+        /// From the first to the last number.
+        span: Span,
+    },
+    /// Anything else: one atom without brackets, or any number in `[ ]`.
+    Atoms {
+        /// Range of the tree's atoms.
+        atoms: (u32, u32),
+        /// Whether they stand in `[ ]`.
+        bracketed: bool,
+    },
+    /// `( A | B )`: a range of word atoms.
+    Mask((u32, u32)),
+}
+
+/// A run of numbers.
+#[derive(Clone, Debug)]
+pub enum Numbers {
+    /// Range of the tree's integers.
+    Ints(u32, u32),
+    /// Range of the tree's floats.
+    Floats(u32, u32),
+    /// Many integers.
+    ManyInts(Arc<Vec<i32>>),
+    /// Many floats.
+    ManyFloats(Arc<Vec<f64>>),
+}
+
+/// A single value in a list that is not all numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Atom<'a> {
+    /// A number.
+    Number(f64, Span),
+    /// The raw text between quotes.
+    String(&'a [u8], Span),
+    /// An unquoted word.
+    Word(&'a [u8], Span),
+    /// A node, `USE` or `NULL`.
+    Child(Child<'a>),
+}
+
+/// A parsed file.
+#[derive(Clone, Debug)]
+pub struct Tree<'a> {
+    /// The text it was read from.
+    pub source: &'a [u8],
+    /// What the first line says.
+    pub header: Header,
+    pub(crate) nodes: Vec<Node<'a>>,
+    pub(crate) fields: Vec<Field<'a>>,
+    pub(crate) items: Vec<Item<'a>>,
+    pub(crate) atoms: Vec<Atom<'a>>,
+    pub(crate) ints: Vec<i32>,
+    pub(crate) floats: Vec<f64>,
+    pub(crate) roots: Vec<Child<'a>>,
+}
+
+impl<'a> Node<'a> {
+    pub(crate) fn new(class: &'a [u8], def: Option<&'a [u8]>, span: Span) -> Self {
+        Self {
+            class,
+            def,
+            span,
+            items: (0, 0),
+        }
+    }
+
+    pub(crate) fn set_items(&mut self, start: usize, end: usize) {
+        self.items = (start as u32, end as u32);
+    }
+}
+
+impl<'a> Tree<'a> {
+    pub(crate) fn new(source: &'a [u8], header: Header) -> Self {
+        Self {
+            source,
+            header,
+            nodes: Vec::new(),
+            fields: Vec::new(),
+            items: Vec::new(),
+            atoms: Vec::new(),
+            ints: Vec::new(),
+            floats: Vec::new(),
+            roots: Vec::new(),
+        }
+    }
+
+    /// What stands at the top level.
+    pub fn children_of_root(&self) -> &[Child<'a>] {
+        &self.roots
+    }
+
+    /// A node.
+    pub fn node(&self, id: NodeId) -> &Node<'a> {
+        &self.nodes[id.0 as usize]
+    }
+
+    /// Number of nodes.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// A field.
+    pub fn field(&self, id: FieldId) -> &Field<'a> {
+        &self.fields[id.0 as usize]
+    }
+
+    /// A node's body.
+    pub fn items(&self, id: NodeId) -> &[Item<'a>] {
+        let (start, end) = self.node(id).items;
+        &self.items[start as usize..end as usize]
+    }
+
+    /// The atoms of a value.
+    pub fn atoms(&self, range: (u32, u32)) -> &[Atom<'a>] {
+        &self.atoms[range.0 as usize..range.1 as usize]
+    }
+
+    /// The numbers as integers, if all are written as such.
+    pub fn ints<'t>(&'t self, numbers: &'t Numbers) -> Option<&'t [i32]> {
+        match numbers {
+            Numbers::Ints(start, end) => Some(&self.ints[*start as usize..*end as usize]),
+            Numbers::ManyInts(values) => Some(values),
+            _ => None,
+        }
+    }
+
+    /// The numbers as floats, if at least one is written as such.
+    pub fn floats<'t>(&'t self, numbers: &'t Numbers) -> Option<&'t [f64]> {
+        match numbers {
+            Numbers::Floats(start, end) => Some(&self.floats[*start as usize..*end as usize]),
+            Numbers::ManyFloats(values) => Some(values),
+            _ => None,
+        }
+    }
+
+    /// How many numbers.
+    pub fn count(&self, numbers: &Numbers) -> usize {
+        match numbers {
+            Numbers::Ints(start, end) | Numbers::Floats(start, end) => (end - start) as usize,
+            Numbers::ManyInts(values) => values.len(),
+            Numbers::ManyFloats(values) => values.len(),
+        }
+    }
+
+    /// The integers of `span` read again by C's rules, where `010` is 8. Costs a pass over the text.
+    pub fn octal_ints(&self, span: Span) -> Vec<i64> {
+        let text = &self.source[span.range()];
+        let mut values = Vec::new();
+        let mut at = 0;
+        loop {
+            at = lex::skip_trivia(text, at);
+            match number::number(text, at) {
+                Some((_, end, _)) => {
+                    values.push(number::octal_aware(&text[at..end]));
+                    at = end;
+                }
+                None if at < text.len() => at += 1,
+                None => return values,
+            }
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! The meaning of Open Inventor.
+
+pub mod scene;

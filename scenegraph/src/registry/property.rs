@@ -1,0 +1,80 @@
+//! Geometry properties: coordinates, normals, texture coordinates, profiles.
+
+macro_rules! property {
+    ([$next:ident $($rest:ident)*] $($seen:tt)*) => { $next! { [$($rest)*] $($seen)* Property {
+
+Coordinate3: Node, Full, [],
+    "Points of the following vertex shapes." {
+    point: MFVec3f = "0 0 0";
+}
+Coordinate4: Node, Full, [],
+    "Points with a weight: x·w, y·w, z·w, w." {
+    point: MFVec4f = "0 0 0 1";
+}
+Normal: Node, Full, [],
+    "Normals of the following vertex shapes." {
+    vector: MFVec3f = "[]";
+}
+NormalBinding: Node, Full, [],
+    "How normals are dealt out over a shape. DEFAULT and NONE mean PER_VERTEX_INDEXED." {
+    value: SFEnum = "DEFAULT" in NORMAL_BINDING;
+}
+TextureCoordinate2: Node, Full, [],
+    "Texture coordinates." {
+    point: MFVec2f = "[]";
+}
+TextureCoordinate3: Node, Partial, [],
+    "Texture coordinates in space; the third number is lost. Coin and TGS addition." {
+    point: MFVec3f = "[]";
+}
+TextureCoordinateBinding: Node, Full, [],
+    "How texture coordinates are dealt out. DEFAULT means PER_VERTEX_INDEXED." {
+    value: SFEnum = "PER_VERTEX_INDEXED" [PER_VERTEX, PER_VERTEX_INDEXED, DEFAULT = 1];
+}
+TextureCoordinateDefault: TextureCoordinateFunction, Full, [],
+    "Back to each shape's own texture coordinates." {}
+TextureCoordinateEnvironment: TextureCoordinateFunction, Planned, [],
+    "Texture coordinates from the reflected view direction." {}
+TextureCoordinatePlane: TextureCoordinateFunction, Full, [],
+    "Texture coordinates by projection on a plane. directionR is Coin's and TGS's." {
+    directionS: SFVec3f = "1 0 0";
+    directionT: SFVec3f = "0 1 0";
+    directionR: SFVec3f = "0 0 1";
+}
+TextureCoordinateObject: TextureCoordinateFunction, Planned, [],
+    "Texture coordinates by planes in object space. Coin addition." {
+    factorS: SFVec4f = "1 0 0 0";
+    factorT: SFVec4f = "0 1 0 0";
+    factorR: SFVec4f = "0 0 1 0";
+    factorQ: SFVec4f = "0 0 0 1";
+}
+VertexProperty: Node, Full, [],
+    "Coordinates, normals, colours and texture coordinates in one node; lists that are not empty \
+     override the state. texCoord3 and textureUnit are Coin's and TGS's." {
+    vertex: MFVec3f = "[]";
+    texCoord: MFVec2f = "[]";
+    texCoord3: MFVec3f = "[]";
+    normal: MFVec3f = "[]";
+    normalBinding: SFEnum = "PER_VERTEX_INDEXED" in NORMAL_BINDING;
+    orderedRGBA: MFUInt32 = "[]";
+    materialBinding: SFEnum = "OVERALL" in MATERIAL_BINDING;
+    textureUnit: MFInt32 = "0";
+}
+ProfileCoordinate2: Node, Planned, [],
+    "Points of the following profiles." {
+    point: MFVec2f = "0 0";
+}
+ProfileCoordinate3: Node, Planned, [],
+    "Points of the following profiles with a weight." {
+    point: MFVec3f = "0 0 1";
+}
+LinearProfile: Profile, Planned, [PROFILE],
+    "Polygon that trims a NURBS surface or shapes Text3." {}
+NurbsProfile: Profile, Planned, [PROFILE],
+    "Curve that trims a NURBS surface or shapes Text3." {
+    knotVector: MFFloat = "0";
+}
+
+    } } };
+}
+pub(super) use property;
