@@ -60,14 +60,16 @@ pub struct Source<'a> {
 const SNIPPET_CHARS: usize = 120;
 
 impl Source<'_> {
-    /// Line and column of a byte. Costs a pass over the text before it; for many places in order
-    /// use [`LineCounter`].
-    pub fn position(&self, at: usize) -> SourcePos {
-        LineCounter::new(self.file).position(self.bytes, at)
+    /// The problems in order of place, each with its line and the text there. One pass over the
+    /// text serves all.
+    pub fn diagnostics(&self, mut problems: Vec<Problem>) -> Vec<Diagnostic> {
+        problems.sort_by_key(|p| p.span.start);
+        let mut lines = LineCounter::new(self.file);
+        let finish = |problem| self.diagnostic(problem, &mut lines);
+        problems.into_iter().map(finish).collect()
     }
 
-    /// The problem with its place and the text there.
-    pub fn diagnostic(&self, problem: Problem) -> Diagnostic {
+    fn diagnostic(&self, problem: Problem, lines: &mut LineCounter) -> Diagnostic {
         let at = (problem.span.start as usize).min(self.bytes.len());
         Diagnostic {
             severity: problem.severity,
@@ -75,7 +77,7 @@ impl Source<'_> {
             message: problem.message,
             hint: problem.hint,
             file: Arc::clone(self.name),
-            pos: self.position(at),
+            pos: lines.position(self.bytes, at),
             snippet: self.snippet(at, problem.span.end as usize),
         }
     }

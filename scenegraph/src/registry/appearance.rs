@@ -52,7 +52,9 @@ ShapeHints: Node, Full, [],
     shapeType: SFEnum = "UNKNOWN_SHAPE_TYPE" [UNKNOWN_SHAPE_TYPE, SOLID];
     faceType: SFEnum = "CONVEX" [UNKNOWN_FACE_TYPE, CONVEX];
     creaseAngle: SFFloat = "0";
-    windingType: SFEnum = "NO_WINDING_TYPE" [NO_WINDING_TYPE];
+    windingType: SFEnum = "NO_WINDING_TYPE" [
+        NO_WINDING_TYPE, ODD_TYPE, NON_ZERO_TYPE, POSITIVE_TYPE, NEGATIVE_TYPE, ABS_GEQ_TWO_TYPE,
+    ];
     useVBO: SFBool = "FALSE";
 }
 PolygonOffset: Node, Kept, [],
@@ -100,6 +102,16 @@ AlphaTest: Node, Kept, [],
         NONE, NEVER, ALWAYS, LESS, LEQUAL, EQUAL, GEQUAL, GREATER, NOTEQUAL,
     ];
     value: SFFloat = "0.5";
+}
+ShadowStyle: Node, Kept, [],
+    "Which shapes throw and take shadows. Coin addition." {
+    style: SFEnum = "CASTS_SHADOW_AND_SHADOWED" [
+        NO_SHADOWING, CASTS_SHADOW, SHADOWED, CASTS_SHADOW_AND_SHADOWED,
+    ];
+}
+ShadowCulling: Node, Kept, [],
+    "Culling while shadows are drawn. Coin addition." {
+    mode: SFEnum = "AS_IS_CULLING" [AS_IS_CULLING, NO_CULLING];
 }
 Font: Node, Planned, [FONT],
     "Font of the following text. Size 10 by this node, 12 in Coin and 10 in SGI without any." {}

@@ -58,6 +58,24 @@ MultipleCopy: Group, Full, [],
     "A copy of its children for every matrix." {
     matrix: MFMatrix = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
 }
+ShadowGroup as Separator: Separator, Partial, [SEPARATOR],
+    "A Separator; the shadows inside it are not kept. Coin addition." {
+    isActive: SFBool = "TRUE";
+    intensity: SFFloat = "0.5";
+    precision: SFFloat = "0.5";
+    quality: SFFloat = "0.5";
+    shadowCachingEnabled: SFBool = "TRUE";
+    visibilityNearRadius: SFFloat = "-1";
+    visibilityRadius: SFFloat = "-1";
+    epsilon: SFFloat = "0.00001";
+    threshold: SFFloat = "0.1";
+    smoothBorder: SFFloat = "0";
+    visibilityFlag: SFEnum = "LONGEST_BBOX_EDGE_FACTOR" [
+        ABSOLUTE_RADIUS, LONGEST_BBOX_EDGE_FACTOR, PROJECTED_BBOX_DEPTH_FACTOR,
+    ];
+}
+GeoSeparator: Separator, Planned, [SEPARATOR, GEO_PLACE],
+    "A Separator at a place on the globe. Coin addition." {}
 File: Node, Full, [],
     "The nodes of another Inventor file, as a Group." {
     name: SFString = "\"<Undefined file>\"";

@@ -20,6 +20,14 @@ EventCallback: Node, Kept, [],
     "Calls the application on events." {}
 Callback: Node, Kept, [],
     "Calls the application during traversal." {}
+Listener: Node, Kept, [],
+    "The listener of VRML sound. Coin addition." {
+    position: SFVec3f = "0 0 0";
+    orientation: SFRotation = "0 0 1 0";
+    dopplerVelocity: SFVec3f = "0 0 0";
+    dopplerFactor: SFFloat = "0";
+    gain: SFFloat = "1";
+}
 
     } } };
 }

@@ -10,6 +10,20 @@ PointLight: Light, Full, [LIGHT, POINT_LIGHT],
 SpotLight: Light, Full, [LIGHT, SPOT_LIGHT],
     "Light from a point in a cone; cutOffAngle is the half angle in radians." {}
 
+ShadowDirectionalLight as DirectionalLight: DirectionalLight, Partial, [LIGHT, DIRECTIONAL_LIGHT],
+    "A DirectionalLight; its shadows are not kept. Coin addition." {
+    shadowMapScene: SFNode = "NULL";
+    maxShadowDistance: SFFloat = "-1";
+    bboxCenter: SFVec3f = "0 0 0";
+    bboxSize: SFVec3f = "-1 -1 -1";
+}
+ShadowSpotLight as SpotLight: SpotLight, Partial, [LIGHT, SPOT_LIGHT],
+    "A SpotLight; its shadows are not kept. Coin addition." {
+    shadowMapScene: SFNode = "NULL";
+    nearDistance: SFFloat = "-1";
+    farDistance: SFFloat = "-1";
+}
+
     } Camera {
 
 PerspectiveCamera: Camera, Full, [CAMERA, PERSPECTIVE],
@@ -25,8 +39,17 @@ FrustumCamera: Camera, Partial, [CAMERA],
     top: SFFloat = "0.5";
     bottom: SFFloat = "-0.5";
 }
-ReversePerspectiveCamera: PerspectiveCamera, Partial, [CAMERA, PERSPECTIVE],
-    "Reversed perspective; taken as a PerspectiveCamera. Coin addition." {}
+ReversePerspectiveCamera: PerspectiveCamera, Partial, [],
+    "Reversed perspective, drawn from behind; taken as a PerspectiveCamera. Coin addition." {
+    viewportMapping: SFEnum = "ADJUST_CAMERA" in VIEWPORT_MAPPING;
+    position: SFVec3f = "0 0 -10";
+    orientation: SFRotation = "0 0 1 3.1415901";
+    aspectRatio: SFFloat = "1";
+    nearDistance: SFFloat = "-10";
+    farDistance: SFFloat = "-1";
+    focalDistance: SFFloat = "-6";
+    heightAngle: SFFloat = "0.7853982";
+}
 
     } } };
 }

@@ -4,27 +4,42 @@
 //! Fields and defaults are those of Open Inventor 2.1 with Coin's additions.
 
 mod appearance;
+mod doc;
+mod draggers;
+mod engines;
 mod groups;
 mod info;
+mod kits;
 mod lights;
 mod lookup;
+mod old;
 mod property;
 mod sets;
+mod shaders;
 mod shapes;
 mod spec;
 mod table;
+#[cfg(test)]
+mod tests;
 mod textures;
 mod transforms;
 mod types;
 
+pub use doc::nodes_markdown;
+pub use old::{OLD_FIELDS, OldFields};
 pub use spec::{ClassSpec, Family, FieldSpec, Support, Word};
 pub use types::FieldType;
 
 use appearance::appearance;
+use draggers::draggers;
+use engines::engines;
 use groups::groups;
 use info::info;
+use kits::kits;
 use lights::lights;
+use old::old;
 use property::property;
+use shaders::shaders;
 use shapes::shapes;
 use table::define_classes;
 use textures::textures;
@@ -33,18 +48,27 @@ use transforms::transforms;
 /// Names that occur as [`ClassSpec::parent`] but cannot be instantiated and so have no entry.
 pub const ABSTRACT: &[&str] = &[
     "Camera",
+    "Dragger",
+    "Engine",
     "IndexedShape",
+    "Interpolate",
     "Light",
     "Node",
     "NonIndexedShape",
     "Profile",
+    "ShaderObject",
     "Shape",
     "Texture",
+    "Texture2Convert",
     "TextureCoordinateFunction",
     "Transformation",
+    "UniformShaderParameter",
 ];
 
-groups! { [transforms appearance textures property shapes lights info define_classes] }
+groups! { [
+    transforms appearance textures shaders property shapes lights info engines kits draggers old
+    define_classes
+] }
 
 impl Class {
     /// What is known about the class.

@@ -48,6 +48,30 @@ TextureCoordinateObject: TextureCoordinateFunction, Planned, [],
     factorR: SFVec4f = "0 0 1 0";
     factorQ: SFVec4f = "0 0 0 1";
 }
+TextureCoordinateCube: TextureCoordinateFunction, Planned, [],
+    "Texture coordinates by projection on a cube. Coin addition; Inventor 1 had other fields." {}
+TextureCoordinateCylinder: TextureCoordinateFunction, Planned, [],
+    "Texture coordinates by projection on a cylinder. Coin addition; Inventor 1 had other fields." {}
+TextureCoordinateSphere: TextureCoordinateFunction, Planned, [],
+    "Texture coordinates by projection on a sphere. Coin addition; Inventor 1 had other fields." {}
+TextureCoordinateNormalMap: TextureCoordinateFunction, Planned, [],
+    "Cube map coordinates along the normal. Coin addition." {}
+TextureCoordinateReflectionMap: TextureCoordinateFunction, Planned, [],
+    "Cube map coordinates along the reflected view direction. Coin addition." {}
+GeoCoordinate: Node, Planned, [],
+    "Points on the globe. Coin addition." {
+    point: MFVec3d = "0 0 0";
+    geoSystem: MFString = "[ \"GD\", \"WE\" ]";
+}
+VertexAttribute: Node, Kept, [],
+    "Values for a vertex shader. Coin addition." {
+    name: SFName = "\"\"";
+    typeName: SFName = "\"\"";
+}
+VertexAttributeBinding: Node, Kept, [],
+    "How vertex attributes are dealt out. Coin addition." {
+    value: SFEnum = "OVERALL" [OVERALL, PER_VERTEX, PER_VERTEX_INDEXED, DEFAULT = 2];
+}
 VertexProperty: Node, Full, [],
     "Coordinates, normals, colours and texture coordinates in one node; lists that are not empty \
      override the state. texCoord3 and textureUnit are Coin's and TGS's." {

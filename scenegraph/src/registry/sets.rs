@@ -77,6 +77,14 @@ pub(super) const COMBINE_OPERATION: &[Word] = &number([
     ("DOT3_RGBA", None),
 ]);
 
+pub(super) const VIEWPORT_MAPPING: &[Word] = &number([
+    ("CROP_VIEWPORT_FILL_FRAME", None),
+    ("CROP_VIEWPORT_LINE_FRAME", None),
+    ("CROP_VIEWPORT_NO_FRAME", None),
+    ("ADJUST_CAMERA", None),
+    ("LEAVE_ALONE", None),
+]);
+
 pub(super) const JUSTIFICATION: &[Word] =
     &number([("LEFT", None), ("RIGHT", None), ("CENTER", None)]);
 
@@ -128,6 +136,12 @@ pub(super) const TRANSLATION: &[FieldSpec] = fields! {
 pub(super) const MOTION: &[FieldSpec] = fields! {
     speed: SFFloat = "1";
     on: SFBool = "TRUE";
+};
+
+/// A place on the globe in a system such as latitude and longitude in degrees.
+pub(super) const GEO_PLACE: &[FieldSpec] = fields! {
+    geoCoords: SFVec3d = "0 0 0";
+    geoSystem: MFString = "[ \"GD\", \"WE\" ]";
 };
 
 /// Fields of `ClipPlane`.
@@ -203,16 +217,69 @@ pub(super) const SPOT_LIGHT: &[FieldSpec] = fields! {
 
 /// Fields of the abstract class `Camera`.
 pub(super) const CAMERA: &[FieldSpec] = fields! {
-    viewportMapping: SFEnum = "ADJUST_CAMERA" [
-        CROP_VIEWPORT_FILL_FRAME, CROP_VIEWPORT_LINE_FRAME, CROP_VIEWPORT_NO_FRAME,
-        ADJUST_CAMERA, LEAVE_ALONE,
-    ];
+    viewportMapping: SFEnum = "ADJUST_CAMERA" in VIEWPORT_MAPPING;
     position: SFVec3f = "0 0 1";
     orientation: SFRotation = "0 0 1 0";
     aspectRatio: SFFloat = "1";
     nearDistance: SFFloat = "1";
     farDistance: SFFloat = "10";
     focalDistance: SFFloat = "5";
+};
+
+/// The part that every kit has.
+pub(super) const KIT: &[FieldSpec] = fields! {
+    callbackList: SFNode = "NULL";
+};
+
+/// Parts of a kit that is a Separator inside.
+pub(super) const SEPARATOR_KIT: &[FieldSpec] = fields! {
+    topSeparator: SFNode = "NULL";
+    pickStyle: SFNode = "NULL";
+    appearance: SFNode = "NULL";
+    units: SFNode = "NULL";
+    transform: SFNode = "NULL";
+    texture2Transform: SFNode = "NULL";
+};
+
+/// Parts and fields that every dragger has besides those of a kit and a Separator.
+pub(super) const DRAGGER: &[FieldSpec] = fields! {
+    topSeparator: SFNode = "NULL";
+    motionMatrix: SFNode = "NULL";
+    geomSeparator: SFNode = "NULL";
+    isActive: SFBool = "FALSE";
+};
+
+/// The scale of a dragger.
+pub(super) const SCALE: &[FieldSpec] = fields! {
+    scaleFactor: SFVec3f = "1 1 1";
+};
+
+/// Fields of a shader.
+pub(super) const SHADER: &[FieldSpec] = fields! {
+    isActive: SFBool = "TRUE";
+    sourceType: SFEnum = "FILENAME" [ARB_PROGRAM, CG_PROGRAM, GLSL_PROGRAM, FILENAME];
+    sourceProgram: SFString = "\"\"";
+    parameter: MFNode = "[]";
+};
+
+/// Fields of a shader parameter besides its value.
+pub(super) const PARAMETER: &[FieldSpec] = fields! {
+    name: SFString = "\"\"";
+    identifier: SFInt32 = "0";
+};
+
+/// The inputs of a ten-way trigger.
+pub(super) const TRIGGERS: &[FieldSpec] = fields! {
+    input0: SFTrigger = "";
+    input1: SFTrigger = "";
+    input2: SFTrigger = "";
+    input3: SFTrigger = "";
+    input4: SFTrigger = "";
+    input5: SFTrigger = "";
+    input6: SFTrigger = "";
+    input7: SFTrigger = "";
+    input8: SFTrigger = "";
+    input9: SFTrigger = "";
 };
 
 /// What `PerspectiveCamera` adds to `Camera`.

@@ -40,8 +40,23 @@ impl ClassSpec {
     /// Whether nodes of this class carry a list of child nodes.
     #[must_use]
     pub const fn is_group(&self) -> bool {
-        matches!(self.family, Family::Group)
-            && !matches!(self.class, Class::File | Class::WWWInline)
+        match self.family {
+            Family::Group => !matches!(self.class, Class::File | Class::WWWInline),
+            Family::Old => matches!(self.class, Class::LayerGroup | Class::CustomNode),
+            _ => false,
+        }
+    }
+
+    /// Whether a field that is not in the list is a catalog part, that is, an `SFNode`. Kits and
+    /// draggers: draggers have hundreds of parts for their looks, which are not listed, and a
+    /// kit of somebody's own may add parts.
+    #[must_use]
+    pub const fn has_parts(&self) -> bool {
+        match self.family {
+            Family::Kit => !matches!(self.class, Class::NodeKitListPart),
+            Family::Dragger => true,
+            _ => false,
+        }
     }
 }
 
@@ -138,8 +153,7 @@ named_enum! {
         Partial = "partial",
         /// Read and written back; it has no effect on a static model.
         Kept = "kept",
-        /// Recognised and read; its geometry or effect comes with a later version, and until
-        /// then it is reported as a loss.
+        /// Recognised and read, but its geometry or effect is not there yet: reported as a loss.
         Planned = "planned",
     }
 }

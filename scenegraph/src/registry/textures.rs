@@ -27,7 +27,7 @@ Texture3: Texture, Planned, [],
 }
 TextureCubeMap: Texture, Planned, [],
     "Six pictures round the scene, for reflections. Coin addition." {
-    filenames: MFString = "\"\"";
+    filenames: MFString = "[]";
     imagePosX: SFImage = "0 0 0";
     imageNegX: SFImage = "0 0 0";
     imagePosY: SFImage = "0 0 0";
@@ -72,6 +72,18 @@ SceneTexture2: Node, Planned, [],
         RGBA8, DEPTH, RGBA32F, RGB32F, RGBA16F, RGB16F, R3_G3_B2, RGB, RGB4, RGB5, RGB8, RGB10,
         RGB12, RGB16, RGBA, RGBA2, RGBA4, RGB5_A1, RGB10_A2, RGBA12, RGBA16,
     ];
+}
+SceneTextureCubeMap: Node, Planned, [],
+    "Six pictures of another scene, for reflections. Coin addition." {
+    wrapS: SFEnum = "REPEAT" in WRAP;
+    wrapT: SFEnum = "REPEAT" in WRAP;
+    wrapR: SFEnum = "REPEAT" in WRAP;
+    model: SFEnum = "MODULATE" in TEXTURE_MODEL;
+    blendColor: SFColor = "0 0 0";
+    backgroundColor: SFColor = "0 0 0";
+    size: SFVec2s = "256 256";
+    scene: SFNode = "NULL";
+    transparencyFunction: SFEnum = "NONE" [NONE, ALPHA_BLEND, ALPHA_TEST];
 }
 Texture2Transform: Node, Full, [],
     "Scales and rotates texture coordinates about `center`, then moves them; cumulative." {

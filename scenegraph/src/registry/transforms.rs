@@ -61,6 +61,10 @@ Shuttle: Translation, Partial, [TRANSLATION],
     speed: SFFloat = "1";
     on: SFBool = "TRUE";
 }
+GeoOrigin: Node, Planned, [GEO_PLACE],
+    "The place on the globe that becomes the origin. Coin addition." {}
+GeoLocation: Transformation, Planned, [GEO_PLACE],
+    "Moves to a place on the globe. Coin addition." {}
 
     } } };
 }

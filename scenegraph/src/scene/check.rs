@@ -146,8 +146,9 @@ impl Scene {
         if !placement.world_from_local.is_finite() {
             return false;
         }
-        // The two products associate differently; each factor adds a few roundings of its size.
-        let bound = 1e-12 * magnitude.max(1.0) * magnitude.max(1.0);
+        // The two products associate differently. Each entry of either is a sum of products that
+        // `magnitude` bounds, with a few roundings a factor.
+        let bound = 1e-13 * magnitude;
         let a = product.to_cols_array();
         let b = placement.world_from_local.to_cols_array();
         a.iter().zip(b).all(|(x, y)| (x - y).abs() <= bound)

@@ -1,0 +1,267 @@
+//! Vertex normals by crease angle. Which corners belong together (a shared coordinate index,
+//! a shared position) is the caller's to say.
+
+use crate::num::gamma;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// The most distinct face normals around one vertex that are compared pair by pair. Above
+/// it, the corners of that vertex keep their face normals (flat shading there).
+///
+/// It bounds the cost: a group of `k` corners takes at most `k * MAX_DISTINCT_NORMALS` dot
+/// products. The tip of a cone has as many normals as the cone has sides.
+pub const MAX_DISTINCT_NORMALS: usize = 512;
+
+/// [`CreaseNormals::compute`] without reuse of scratch memory.
+#[must_use]
+pub fn crease_normals(
+    face_normals: &[DVec3],
+    corner_face: &[u32],
+    corner_group: &[u32],
+    group_count: usize,
+    crease_angle_rad: f64,
+) -> Vec<[f32; 3]> {
+    let faces = Corners {
+        face_normals,
+        corner_face,
+        corner_group,
+        group_count,
+    };
+    let mut normals = Vec::new();
+    CreaseNormals::new().compute(&faces, crease_angle_rad, &mut normals);
+    normals
+}
+
+/// Face corners, and the vertices they meet in.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners<'a> {
+    /// The unit normal of each face; zero for a degenerate face.
+    pub face_normals: &'a [DVec3],
+    /// The face of each corner.
+    pub corner_face: &'a [u32],
+    /// The group of each corner: corners of one group share a vertex.
+    pub corner_group: &'a [u32],
+    /// The number of groups; all of `corner_group` should be below it.
+    pub group_count: usize,
+}
+
+impl Corners<'_> {
+    /// The number of corners.
+    fn len(&self) -> usize {
+        self.corner_face.len().min(self.corner_group.len())
+    }
+
+    fn normal_of_face(&self, face: u32) -> DVec3 {
+        self.face_normals
+            .get(face as usize)
+            .copied()
+            .unwrap_or(DVec3::ZERO)
+    }
+}
+
+/// Computes vertex normals by crease angle. Holds only scratch memory: one instance may
+/// serve many meshes.
+#[derive(Default)]
+pub struct CreaseNormals {
+    /// `corners[starts[g]..starts[g + 1]]` are the corners of group `g`.
+    starts: Vec<u32>,
+    corners: Vec<u32>,
+    group: Group,
+}
+
+impl CreaseNormals {
+    /// An instance without memory yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Overwrites `out` with one unit normal per corner.
+    ///
+    /// The normal of a corner is its own face normal plus those of all other faces of the
+    /// corner's group at an angle below `crease_angle_rad` to its own, each counted once and
+    /// unweighted, normalised (Coin's rule, `SoNormalCache`). The angle is compared as
+    /// `dot > cos(crease_angle_rad)`, so 0 gives flat shading, and pi or more joins all. Degenerate
+    /// faces add nothing. A sum of zero gives the own face normal, else (0, 0, 1). Above
+    /// [`MAX_DISTINCT_NORMALS`] a group is shaded flat.
+    ///
+    /// A NaN angle counts as 0. A face index out of range is a degenerate face, a group out
+    /// of range is a group of its own; of index slices of different lengths the longer is
+    /// cut.
+    pub fn compute(&mut self, faces: &Corners, crease_angle_rad: f64, out: &mut Vec<[f32; 3]>) {
+        out.clear();
+        out.extend(
+            faces.corner_face[..faces.len()]
+                .iter()
+                .map(|&face| stored(faces.normal_of_face(face))),
+        );
+        if crease_angle_rad.is_nan() || crease_angle_rad <= 0.0 {
+            return;
+        }
+        let min_dot = if crease_angle_rad >= PI {
+            f64::NEG_INFINITY
+        } else {
+            crease_angle_rad.cos()
+        };
+        self.sort_corners_by_group(faces);
+        for range in self.starts.windows(2) {
+            let corners = &self.corners[range[0] as usize..range[1] as usize];
+            if corners.len() > 1 {
+                self.group.smooth(faces, corners, min_dot, out);
+            }
+        }
+    }
+
+    /// A counting sort; stable, so that the corners of a group stay in order.
+    fn sort_corners_by_group(&mut self, faces: &Corners) {
+        let groups = &faces.corner_group[..faces.len()];
+        // No more groups than the largest index asks for, whatever count is claimed.
+        let used = groups.iter().max().map_or(0, |&g| g as usize + 1);
+        let group_count = faces.group_count.min(used);
+        self.starts.clear();
+        self.starts.resize(group_count + 1, 0);
+        let in_range = |g: u32| (g as usize) < group_count;
+        for &g in groups.iter().filter(|&&g| in_range(g)) {
+            self.starts[g as usize] += 1;
+        }
+        let mut end = 0;
+        for start in &mut self.starts {
+            end += *start;
+            *start = end;
+        }
+        self.corners.clear();
+        self.corners.resize(end as usize, 0);
+        // Backwards, each count moves from its group's end to its start.
+        for (corner, &g) in groups
+            .iter()
+            .enumerate()
+            .rev()
+            .filter(|&(_, &g)| in_range(g))
+        {
+            self.starts[g as usize] -= 1;
+            self.corners[self.starts[g as usize] as usize] = corner as u32;
+        }
+    }
+}
+
+/// The faces around one vertex.
+#[derive(Default)]
+struct Group {
+    faces: Vec<u32>,
+    /// Distinct normals, and how many faces have each.
+    normals: Vec<(DVec3, f64)>,
+}
+
+impl Group {
+    fn smooth(&mut self, faces: &Corners, corners: &[u32], min_dot: f64, out: &mut [[f32; 3]]) {
+        self.collect(faces, corners);
+        if let [(_, times)] = self.normals[..]
+            && times as usize == self.faces.len()
+        {
+            // All face normals agree: the sum of equal vectors points the same way.
+            return;
+        }
+        if min_dot == f64::NEG_INFINITY {
+            let mut sum = NormalSum::default();
+            for &(n, times) in &self.normals {
+                sum.add(n, times);
+            }
+            for &corner in corners {
+                let own = faces.normal_of_face(faces.corner_face[corner as usize]);
+                out[corner as usize] = sum.stored(own);
+            }
+            return;
+        }
+        if self.normals.len() > MAX_DISTINCT_NORMALS {
+            return;
+        }
+        for &corner in corners {
+            let own = faces.normal_of_face(faces.corner_face[corner as usize]);
+            out[corner as usize] = self.sum_within(own, min_dot).stored(own);
+        }
+    }
+
+    /// Fills in the distinct normals of the group's faces, each face counted once.
+    fn collect(&mut self, faces: &Corners, corners: &[u32]) {
+        self.faces.clear();
+        self.faces.extend(
+            corners
+                .iter()
+                .map(|&corner| faces.corner_face[corner as usize]),
+        );
+        // Usually in order already. Summing in face order gives corners with the same
+        // neighbours the same bits, so that they weld.
+        if !self.faces.is_sorted_by(|a, b| a < b) {
+            self.faces.sort_unstable();
+            self.faces.dedup();
+        }
+        self.normals.clear();
+        let normals = self.faces.iter().map(|&face| faces.normal_of_face(face));
+        for n in normals.filter(|&n| n != DVec3::ZERO) {
+            match self.normals.last_mut() {
+                Some((last, times)) if *last == n => *times += 1.0,
+                _ => self.normals.push((n, 1.0)),
+            }
+        }
+        if self.normals.len() > MAX_DISTINCT_NORMALS {
+            self.merge_equal_normals();
+        }
+    }
+
+    fn merge_equal_normals(&mut self) {
+        let bits = |n: DVec3| n.to_array().map(f64::to_bits);
+        self.normals.sort_unstable_by_key(|&(n, _)| bits(n));
+        self.normals.dedup_by(|(n, times), (kept, kept_times)| {
+            let equal = bits(*n) == bits(*kept);
+            if equal {
+                *kept_times += *times;
+            }
+            equal
+        });
+    }
+
+    /// The sum of the normals within the crease angle of `own`, `own` included.
+    fn sum_within(&self, own: DVec3, min_dot: f64) -> NormalSum {
+        let mut sum = NormalSum::default();
+        for &(n, times) in &self.normals {
+            // Its own normal counts at any angle: rounding may leave its square below 1.
+            if n == own || n.dot(own) > min_dot {
+                sum.add(n, times);
+            }
+        }
+        sum
+    }
+}
+
+/// A sum of unit vectors.
+#[derive(Default)]
+struct NormalSum {
+    sum: DVec3,
+    count: f64,
+    additions: u32,
+}
+
+impl NormalSum {
+    fn add(&mut self, n: DVec3, times: f64) {
+        self.sum += n * times;
+        self.count += times;
+        self.additions += 1;
+    }
+
+    /// The normalised sum, or if it has no direction the own face normal, or (0, 0, 1).
+    ///
+    /// Opposite normals cancel only up to rounding: each normal carries up to five roundings
+    /// of its own and one of its product, each addition one more.
+    fn stored(&self, own: DVec3) -> [f32; 3] {
+        let rounding = gamma(self.additions.saturating_add(6)) * self.count;
+        if self.sum.abs().max_element() > rounding {
+            stored(self.sum)
+        } else {
+            stored(own)
+        }
+    }
+}
+
+fn stored(n: DVec3) -> [f32; 3] {
+    n.normalize_or(DVec3::Z).as_vec3().to_array()
+}

@@ -1,0 +1,165 @@
+//! A k-d tree over points of the plane, some of them active, that finds an active point in a
+//! triangle. The points are fixed; activity changes.
+//!
+//! A tree rather than a grid: its cost does not depend on how the points are spread.
+
+use super::plane::orient;
+use glam::DVec2;
+
+/// Points per leaf, at most.
+const LEAF_SIZE: usize = 8;
+
+/// More than the levels of a tree of `u32::MAX` points.
+const MAX_LEVELS: usize = 32;
+
+#[derive(Clone, Copy)]
+struct Node {
+    min: DVec2,
+    max: DVec2,
+    /// Range in `order`.
+    start: u32,
+    end: u32,
+    active: u32,
+}
+
+const NO_NODE: Node = Node {
+    min: DVec2::INFINITY,
+    max: DVec2::NEG_INFINITY,
+    start: 0,
+    end: 0,
+    active: 0,
+};
+
+/// See the module. Nodes are numbered as in a binary heap: the root is 1, the children of `k`
+/// are `2k` and `2k + 1`.
+#[derive(Default)]
+pub(super) struct PointTree {
+    nodes: Vec<Node>,
+    order: Vec<u32>,
+    leaf_of_point: Vec<u32>,
+}
+
+impl PointTree {
+    /// Starts afresh with these points.
+    pub(super) fn build(&mut self, points: &[DVec2], is_active: impl Fn(u32) -> bool) {
+        let leaf_count = points.len().div_ceil(LEAF_SIZE).next_power_of_two();
+        self.order.clear();
+        self.order.extend(0..points.len() as u32);
+        self.leaf_of_point.clear();
+        self.leaf_of_point.resize(points.len(), 0);
+        self.nodes.clear();
+        self.nodes.resize(2 * leaf_count, NO_NODE);
+        self.nodes[1].end = points.len() as u32;
+        // Parents come before their children.
+        for k in 1..2 * leaf_count {
+            let range = self.nodes[k].start as usize..self.nodes[k].end as usize;
+            let members = &mut self.order[range];
+            for &i in members.iter() {
+                self.nodes[k].min = self.nodes[k].min.min(points[i as usize]);
+                self.nodes[k].max = self.nodes[k].max.max(points[i as usize]);
+            }
+            if k < leaf_count {
+                self.split(k, points);
+            } else {
+                for &i in members.iter() {
+                    self.leaf_of_point[i as usize] = k as u32;
+                    self.nodes[k].active += u32::from(is_active(i));
+                }
+            }
+        }
+        for k in (1..leaf_count).rev() {
+            self.nodes[k].active = self.nodes[2 * k].active + self.nodes[2 * k + 1].active;
+        }
+    }
+
+    /// Divides a node's points evenly along the longer side of its box.
+    fn split(&mut self, k: usize, points: &[DVec2]) {
+        let Node {
+            min,
+            max,
+            start,
+            end,
+            ..
+        } = self.nodes[k];
+        let size = max - min;
+        let axis = usize::from(size.y > size.x);
+        let members = &mut self.order[start as usize..end as usize];
+        let half = members.len() / 2;
+        if half > 0 {
+            let key = |i: u32| points[i as usize][axis];
+            members
+                .select_nth_unstable_by(half, |&i, &j| key(i).total_cmp(&key(j)).then(i.cmp(&j)));
+        }
+        let middle = start + half as u32;
+        self.nodes[2 * k].start = start;
+        self.nodes[2 * k].end = middle;
+        self.nodes[2 * k + 1].start = middle;
+        self.nodes[2 * k + 1].end = end;
+    }
+
+    /// Activates or deactivates a point that was not, or was, active.
+    pub(super) fn set_active(&mut self, point: u32, active: bool) {
+        let mut k = self.leaf_of_point[point as usize] as usize;
+        while k > 0 {
+            let count = &mut self.nodes[k].active;
+            *count = if active {
+                *count + 1
+            } else {
+                count.saturating_sub(1)
+            };
+            k /= 2;
+        }
+    }
+
+    /// The first point of the boxes near a counter-clockwise triangle for which `accept` is
+    /// true. It is asked about inactive points and points outside as well. Adds the nodes and
+    /// points looked at to `steps`.
+    pub(super) fn find_near(
+        &self,
+        triangle: [DVec2; 3],
+        steps: &mut u64,
+        mut accept: impl FnMut(u32) -> bool,
+    ) -> Option<u32> {
+        let leaf_count = self.nodes.len() / 2;
+        // Of each level at most one node waits, and of the last two.
+        let mut waiting = [0_usize; MAX_LEVELS + 1];
+        waiting[0] = 1;
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let k = waiting[count];
+            let node = &self.nodes[k];
+            *steps += 1;
+            if node.active == 0 || is_box_outside(node.min, node.max, triangle) {
+                continue;
+            }
+            if k < leaf_count {
+                waiting[count] = 2 * k + 1;
+                waiting[count + 1] = 2 * k;
+                count += 2;
+                continue;
+            }
+            let members = &self.order[node.start as usize..node.end as usize];
+            *steps += members.len() as u64;
+            if let Some(&found) = members.iter().find(|&&i| accept(i)) {
+                return Some(found);
+            }
+        }
+        None
+    }
+}
+
+/// Whether one of the triangle's bounds or edges has the whole box strictly outside.
+fn is_box_outside(min: DVec2, max: DVec2, [a, b, c]: [DVec2; 3]) -> bool {
+    if min.cmpgt(a.max(b).max(c)).any() || max.cmplt(a.min(b).min(c)).any() {
+        return true;
+    }
+    [(a, b), (b, c), (c, a)].into_iter().any(|(p, q)| {
+        // The corner of the box that is farthest to the left of the edge.
+        let corner = DVec2::new(
+            if p.y < q.y { min.x } else { max.x },
+            if p.x < q.x { max.y } else { min.y },
+        );
+        orient(p, q, corner) < 0.0
+    })
+}

@@ -1,0 +1,163 @@
+//! `File` and `WWWInline`: models in models.
+//!
+//! A file that is included twice is read once and shared. A file cannot include itself, neither
+//! directly nor by way of others.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use iv_parser::{Diagnostic, NodeId as TreeId, Severity, SourcePos};
+use rustc_hash::FxHashMap;
+
+use super::{Builder, File};
+use crate::graph::{Node, NodeId};
+use crate::loader::{Loaded, Loader};
+use crate::registry::Class;
+
+/// Most files that one model may bring in.
+const MAX_FILES: usize = 10_000;
+
+/// A reference that waits to be followed.
+struct Pending {
+    node: NodeId,
+    file: u32,
+    name: Arc<str>,
+    pos: SourcePos,
+}
+
+pub(super) struct Includes<'l> {
+    loader: &'l dyn Loader,
+    pending: Vec<Pending>,
+    known: FxHashMap<PathBuf, (u32, NodeId)>,
+    /// For each file, the files it includes.
+    edges: Vec<Vec<u32>>,
+}
+
+impl<'l> Includes<'l> {
+    pub(super) fn new(loader: &'l dyn Loader) -> Self {
+        Self {
+            loader,
+            pending: Vec::new(),
+            known: FxHashMap::default(),
+            edges: Vec::new(),
+        }
+    }
+
+    /// Whether `from` includes `to`, directly or by way of others, or is it.
+    fn reaches(&self, from: u32, to: u32) -> bool {
+        let mut seen = vec![false; self.edges.len()];
+        let mut open = vec![from];
+        while let Some(file) = open.pop() {
+            if file == to {
+                return true;
+            }
+            if let Some(seen) = seen.get_mut(file as usize)
+                && !std::mem::replace(seen, true)
+            {
+                open.extend(&self.edges[file as usize]);
+            }
+        }
+        false
+    }
+
+    fn connect(&mut self, from: u32, to: u32) {
+        let size = from.max(to) as usize + 1;
+        if self.edges.len() < size {
+            self.edges.resize_with(size, Vec::new);
+        }
+        self.edges[from as usize].push(to);
+    }
+}
+
+impl File<'_, '_, '_, '_> {
+    /// Remembers the reference of a node that includes a file.
+    pub(super) fn note_include(&mut self, id: TreeId, node: &Node) {
+        if !matches!(node.class(), Some(Class::File | Class::WWWInline))
+            || node.entry("name").is_none()
+        {
+            return;
+        }
+        if let Some(name) = node.text("name") {
+            let pending = Pending {
+                node: NodeId(self.base + id.0),
+                file: self.index,
+                name: Arc::clone(name),
+                pos: node.pos,
+            };
+            self.builder.includes.pending.push(pending);
+        }
+    }
+}
+
+impl Builder<'_> {
+    /// Follows all references, those of files just read included.
+    pub(super) fn load_includes(&mut self) {
+        let mut next = 0;
+        while next < self.includes.pending.len() {
+            self.follow(next);
+            next += 1;
+        }
+    }
+
+    fn follow(&mut self, index: usize) {
+        let Pending {
+            node,
+            file,
+            ref name,
+            pos,
+        } = self.includes.pending[index];
+        let name = Arc::clone(name);
+        let folder = self.files[file as usize].folder.clone();
+        let result = self.includes.loader.load(&folder, &name);
+        let found = match result {
+            Ok(loaded) => self.included(loaded, file),
+            Err(error) => Err(error.to_string()),
+        };
+        match found {
+            Ok(root) => self.nodes[node.0 as usize].children = vec![root],
+            Err(why) => {
+                // An inline of the web that brings its own stand-in is no loss.
+                let stand_in = self.nodes[node.0 as usize].class() == Some(Class::WWWInline);
+                let stand_in = if stand_in {
+                    self.nodes[node.0 as usize].node_field("alternateRep")
+                } else {
+                    None
+                };
+                self.nodes[node.0 as usize].children = stand_in.into_iter().collect();
+                self.diagnostics.push(Diagnostic {
+                    severity: Severity::Warning,
+                    code: "include",
+                    message: format!("`{name}` is not included: {why}"),
+                    hint: "it is looked for beside this file, then beside the first file, then in the --search folders".to_owned(),
+                    file: Arc::clone(&self.files[file as usize].name),
+                    pos,
+                    snippet: None,
+                });
+            }
+        }
+    }
+
+    fn included(&mut self, loaded: Loaded, from: u32) -> Result<NodeId, String> {
+        let known = self.includes.known.get(&loaded.id).copied();
+        if let Some((file, root)) = known {
+            if self.includes.reaches(file, from) {
+                return Err("it includes this file, which would never end".to_owned());
+            }
+            self.includes.connect(from, file);
+            return Ok(root);
+        }
+        if self.files.len() >= MAX_FILES {
+            return Err(format!("more than {MAX_FILES} files"));
+        }
+        let file = self.files.len() as u32;
+        self.includes.connect(from, file);
+        let name: Arc<str> = loaded
+            .id
+            .file_name()
+            .map_or_else(|| "".into(), |n| n.to_string_lossy().into());
+        let folder = loaded.id.parent().unwrap_or(Path::new("")).to_owned();
+        let root = self.file(&loaded.bytes, name, &folder);
+        self.includes.known.insert(loaded.id, (file, root));
+        Ok(root)
+    }
+}

@@ -1,0 +1,261 @@
+//! Syntax to scene graph: classes and fields get their meaning, names become shared handles, old
+//! versions are upgraded, included files are read.
+//!
+//! Never fails: what cannot be used is reported and left out. Nodes of the tree and nodes of the
+//! graph correspond one to one, so no traversal is needed; only what upgrading adds comes behind.
+
+mod include;
+mod names;
+mod node;
+mod upgrade;
+mod value;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use iv_parser::{
+    Child, Diagnostic, Dialect, Encoding, Layout, LineCounter, Problem, Severity, Source,
+    SourcePos, Span, Tree,
+};
+
+use crate::graph::{Graph, Kind, Node, NodeId, SourceFile};
+use crate::loader::Loader;
+use crate::registry::Class;
+
+use include::Includes;
+use names::{Names, Reference};
+
+pub(crate) use value::read_default;
+
+/// Reads a model and all it includes, with the default limits of the parser.
+///
+/// `name` is shown in diagnostics; references are looked for in `folder` first.
+pub fn load(bytes: &[u8], name: &str, folder: &Path, loader: &dyn Loader) -> Graph {
+    load_with(bytes, name, folder, loader, &iv_parser::Limits::default())
+}
+
+/// As [`load`], with limits.
+pub fn load_with(
+    bytes: &[u8],
+    name: &str,
+    folder: &Path,
+    loader: &dyn Loader,
+    limits: &iv_parser::Limits,
+) -> Graph {
+    let mut builder = Builder {
+        nodes: Vec::new(),
+        files: Vec::new(),
+        diagnostics: Vec::new(),
+        includes: Includes::new(loader),
+        limits: *limits,
+    };
+    let root = builder.file(bytes, name.into(), folder);
+    builder.load_includes();
+    Graph {
+        nodes: builder.nodes,
+        root,
+        files: builder.files,
+        diagnostics: builder.diagnostics,
+    }
+}
+
+/// Lays out printed numbers by the registry's field types.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RegistryLayout;
+
+impl Layout for RegistryLayout {
+    fn tuple_size(&self, class: &[u8], field: &[u8]) -> usize {
+        let spec = Class::from_name(class).and_then(|c| c.spec().field(field));
+        spec.map_or(0, |(_, f)| f.field_type.tuple_size())
+    }
+}
+
+struct Builder<'l> {
+    nodes: Vec<Node>,
+    files: Vec<SourceFile>,
+    diagnostics: Vec<Diagnostic>,
+    includes: Includes<'l>,
+    limits: iv_parser::Limits,
+}
+
+impl Builder<'_> {
+    /// Adds one file; returns its root.
+    fn file(&mut self, bytes: &[u8], name: Arc<str>, folder: &Path) -> NodeId {
+        let index = self.files.len() as u32;
+        let parsed = iv_parser::parse_with(bytes, &self.limits);
+        let header = parsed.tree.header;
+        self.files.push(SourceFile {
+            name: Arc::clone(&name),
+            folder: folder.to_owned(),
+            header,
+        });
+        let mut problems = parsed.problems;
+        let readable = header.dialect != Dialect::Vrml2 && header.encoding == Encoding::Ascii;
+        let root = if readable {
+            let mut file = File {
+                index,
+                tree: &parsed.tree,
+                names: Names::of(&parsed.tree),
+                base: self.nodes.len() as u32,
+                lines: LineCounter::new(index),
+                problems: &mut problems,
+                builder: self,
+            };
+            file.nodes();
+            file.root()
+        } else {
+            problems.clear();
+            problems.push(unreadable(header.dialect));
+            self.add(Node {
+                kind: Kind::Known(Class::Separator),
+                name: None,
+                fields: Vec::new(),
+                children: Vec::new(),
+                pos: SourcePos {
+                    file: index,
+                    line: 1,
+                    column: 1,
+                },
+            })
+        };
+        let source = Source {
+            name: &name,
+            file: index,
+            bytes,
+        };
+        let dropped = parsed.problems_dropped + problems.len().saturating_sub(self.limits.problems);
+        problems.truncate(self.limits.problems);
+        self.diagnostics.extend(source.diagnostics(problems));
+        if dropped > 0 {
+            self.diagnostics.push(Diagnostic {
+                severity: Severity::Warning,
+                code: "more-problems",
+                message: format!("{dropped} more problems are not shown"),
+                hint: String::new(),
+                file: name,
+                pos: SourcePos {
+                    file: index,
+                    line: 0,
+                    column: 0,
+                },
+                snippet: None,
+            });
+        }
+        root
+    }
+
+    fn add(&mut self, node: Node) -> NodeId {
+        self.nodes.push(node);
+        NodeId(self.nodes.len() as u32 - 1)
+    }
+}
+
+fn unreadable(dialect: Dialect) -> Problem {
+    let what = if dialect == Dialect::Vrml2 {
+        "VRML 2.0 files"
+    } else {
+        "binary Inventor files"
+    };
+    Problem {
+        severity: Severity::Error,
+        code: "unsupported-format",
+        message: format!("{what} are not read by this version"),
+        hint: "write the model as `#Inventor V2.1 ascii`, for example with SGI's `ivcat`"
+            .to_owned(),
+        span: Span::default(),
+    }
+}
+
+/// One file while it is being added.
+struct File<'b, 't, 'a, 'l> {
+    index: u32,
+    tree: &'t Tree<'a>,
+    names: Names<'t>,
+    /// Graph node of the tree's node 0.
+    base: u32,
+    lines: LineCounter,
+    problems: &'b mut Vec<Problem>,
+    builder: &'b mut Builder<'l>,
+}
+
+impl<'a> File<'_, '_, 'a, '_> {
+    fn root(&mut self) -> NodeId {
+        let roots = self.tree.children_of_root().to_vec();
+        let children: Vec<NodeId> = roots.iter().filter_map(|&c| self.child(c)).collect();
+        if let [only] = children[..]
+            && self.builder.nodes[only.0 as usize].kind == Kind::Known(Class::Separator)
+        {
+            return only;
+        }
+        if children.is_empty() {
+            self.problem(
+                Severity::Warning,
+                "empty",
+                "the file holds no nodes".to_owned(),
+                "",
+                Span::default(),
+            );
+        }
+        self.builder.add(Node {
+            kind: Kind::Known(Class::Separator),
+            name: None,
+            fields: Vec::new(),
+            children,
+            pos: SourcePos {
+                file: self.index,
+                line: 1,
+                column: 1,
+            },
+        })
+    }
+
+    /// The handle of a child, or `None` with a problem.
+    fn child(&mut self, child: Child<'a>) -> Option<NodeId> {
+        match child {
+            Child::Null => None,
+            Child::Node(id) => Some(NodeId(self.base + id.0)),
+            Child::Use(name, span) => self.reference(name, span),
+        }
+    }
+
+    fn reference(&mut self, name: &[u8], span: Span) -> Option<NodeId> {
+        let shown = iv_parser::text_of(&name[..name.len().min(80)]);
+        let (code, message, hint) = match self.names.find(self.tree, name, span) {
+            Reference::Node(id) => return Some(NodeId(self.base + id.0)),
+            Reference::Cycle => (
+                "cycle",
+                format!("`{shown}` is used inside its own definition"),
+                "a node cannot hold itself; this USE was left out",
+            ),
+            Reference::Later => (
+                "used-before-def",
+                format!("`{shown}` is used before it is defined"),
+                "DEF must stand before USE; this USE was left out",
+            ),
+            Reference::Unknown => (
+                "unknown-name",
+                format!("no node is called `{shown}`"),
+                "this USE was left out; names are case-sensitive and end at a blank",
+            ),
+        };
+        self.problem(Severity::Error, code, message, hint, span);
+        None
+    }
+
+    fn problem(
+        &mut self,
+        severity: Severity,
+        code: &'static str,
+        message: String,
+        hint: &str,
+        span: Span,
+    ) {
+        self.problems.push(Problem {
+            severity,
+            code,
+            message,
+            hint: hint.to_owned(),
+            span,
+        });
+    }
+}

@@ -1,0 +1,275 @@
+//! One node: its class, its fields by the registry, its children.
+
+use iv_parser::{Atom, Child, FieldId, Item, NodeId as TreeId, Severity, Span, Value, text_of};
+
+use super::names::display_name;
+use super::value::Reader;
+use super::{File, upgrade};
+use crate::graph::{FieldEntry, Kind, Node, NodeId};
+use crate::registry::{Class, ClassSpec};
+
+/// Words that describe an extension node to readers that do not know it; in nodes that are known
+/// they say nothing new.
+const DESCRIPTION: [&[u8]; 3] = [b"fields", b"inputs", b"isA"];
+
+impl<'a> File<'_, '_, 'a, '_> {
+    /// Adds all nodes of the tree.
+    pub(super) fn nodes(&mut self) {
+        let count = self.tree.node_count();
+        self.builder.nodes.reserve(count);
+        for i in 0..count as u32 {
+            let node = self.node(TreeId(i));
+            self.builder.nodes.push(node);
+        }
+        for i in 0..count as u32 {
+            upgrade::replace(self, NodeId(self.base + i));
+        }
+    }
+
+    fn node(&mut self, id: TreeId) -> Node {
+        let tree = self.tree;
+        let source = tree.node(id);
+        let start = source.span.start as usize;
+        let pos = self.lines.position(tree.source, start);
+        let name = source.def.and_then(display_name);
+        let mut node = Node {
+            kind: Kind::Known(Class::Group),
+            name,
+            fields: Vec::new(),
+            children: Vec::new(),
+            pos,
+        };
+        let known = Class::from_name(source.class);
+        match known.or_else(|| self.class_from_description(id)) {
+            Some(class) => {
+                node.kind = Kind::Known(class);
+                self.known(id, class, &mut node);
+                upgrade::adjust(&mut node, tree.header);
+                self.note_include(id, &node);
+            }
+            None if source.class.is_empty() => self.known(id, Class::Group, &mut node),
+            None => {
+                node.kind =
+                    Kind::Unknown(text_of(&source.class[..source.class.len().min(200)]).into());
+                self.unknown(id, &mut node);
+            }
+        }
+        node
+    }
+
+    /// The first known class in `isA [ … ]` of a class that is not known (SGI's rule).
+    fn class_from_description(&self, id: TreeId) -> Option<Class> {
+        let tree = self.tree;
+        tree.items(id).iter().find_map(|item| {
+            let Item::Field(field) = item else {
+                return None;
+            };
+            let field = tree.field(*field);
+            let Value::Atoms { atoms, .. } = &field.value else {
+                return None;
+            };
+            if field.name != b"isA" {
+                return None;
+            }
+            tree.atoms(*atoms).iter().find_map(|atom| match atom {
+                Atom::String(name, _) | Atom::Word(name, _) => Class::from_name(name),
+                _ => None,
+            })
+        })
+    }
+
+    fn known(&mut self, id: TreeId, class: Class, node: &mut Node) {
+        let tree = self.tree;
+        let spec = class.spec();
+        let mut strays = 0;
+        for item in tree.items(id) {
+            match *item {
+                Item::Child(child) => match self.child(child) {
+                    Some(child) if spec.is_group() => node.children.push(child),
+                    Some(_) => strays += 1,
+                    None => {}
+                },
+                Item::Field(field) => self.field(class, spec, field, node),
+            }
+        }
+        if strays > 0 {
+            self.problem(
+                Severity::Warning,
+                "no-group",
+                format!("{} cannot have children", spec.name),
+                "they were left out; close the node before them",
+                head(tree.node(id).span, spec.name.len()),
+            );
+        }
+    }
+
+    fn field(&mut self, class: Class, spec: &'static ClassSpec, id: FieldId, node: &mut Node) {
+        let tree = self.tree;
+        let field = tree.field(id);
+        let Some((index, field_spec)) = spec.field(field.name) else {
+            return self.unknown_field(class, id, node);
+        };
+        let subject = || format!("`{}.{}`", spec.name, field_spec.name);
+        let mut value = None;
+        if !matches!(field.value, Value::Missing) {
+            // The handles are looked up first: the reader borrows the problems.
+            let mut handles = self.handles(&field.value).into_iter();
+            let mut reader = Reader {
+                tree,
+                subject: &subject,
+                node: &mut |_| handles.next().flatten(),
+                problems: self.problems,
+            };
+            value = reader.read(&field.value, field_spec, field.span);
+        }
+        if field.connection.is_some() && value.is_none() {
+            self.problem(
+                Severity::Warning,
+                "connection",
+                format!("{} takes its value from a connection", subject()),
+                "connections are not evaluated; the field keeps its default",
+                field.span,
+            );
+        }
+        let ignored_default = || FieldEntry {
+            index: index as u16,
+            ignored: true,
+            value: super::read_default(field_spec),
+        };
+        match value {
+            Some(value) => node.fields.push(FieldEntry {
+                index: index as u16,
+                ignored: field.ignored,
+                value,
+            }),
+            None if field.ignored => node.fields.push(ignored_default()),
+            None => {}
+        }
+    }
+
+    /// The handles of all nodes that stand in a value, in order.
+    fn handles(&mut self, value: &Value) -> Vec<Option<NodeId>> {
+        let Value::Atoms { atoms, .. } = value else {
+            return Vec::new();
+        };
+        let tree = self.tree;
+        let children = tree.atoms(*atoms).iter().filter_map(|atom| match atom {
+            Atom::Child(child) => Some(*child),
+            _ => None,
+        });
+        children
+            .collect::<Vec<Child<'a>>>()
+            .into_iter()
+            .map(|c| self.child(c))
+            .collect()
+    }
+
+    fn unknown_field(&mut self, class: Class, id: FieldId, node: &mut Node) {
+        let tree = self.tree;
+        let field = tree.field(id);
+        if DESCRIPTION.contains(&field.name) || upgrade::old_field(self, class, id, node) {
+            return;
+        }
+        let handles: Vec<NodeId> = self.handles(&field.value).into_iter().flatten().collect();
+        if field.name == b"alternateRep" {
+            return;
+        }
+        let name = text_of(&field.name[..field.name.len().min(80)]);
+        let kept = class.spec().is_group() && !handles.is_empty();
+        if kept {
+            node.children.extend(handles);
+        }
+        let hint = match (kept, closest_field(class, &name)) {
+            (true, _) => "the node in it was kept as a child".to_owned(),
+            (false, Some(near)) => format!("did you mean `{near}`? The value was ignored"),
+            (false, None) => "the value was ignored".to_owned(),
+        };
+        let span = head(field.span, field.name.len());
+        let message = format!("`{name}` is not a field of {}", class.name());
+        self.problem(Severity::Warning, "unknown-field", message, &hint, span);
+    }
+
+    /// A class that nobody knows: what is drawn in its place are its `alternateRep`, else the
+    /// nodes in it.
+    fn unknown(&mut self, id: TreeId, node: &mut Node) {
+        let tree = self.tree;
+        let mut alternate = None;
+        for item in tree.items(id) {
+            match *item {
+                Item::Child(child) => node.children.extend(self.child(child)),
+                Item::Field(field) => {
+                    let field = tree.field(field);
+                    let handles: Vec<NodeId> =
+                        self.handles(&field.value).into_iter().flatten().collect();
+                    if field.name == b"alternateRep" {
+                        alternate = handles.first().copied();
+                    } else if field.name == b"children" {
+                        node.children.extend(handles);
+                    }
+                }
+            }
+        }
+        let class = node.class_name().to_owned();
+        let (severity, what) = match (alternate, node.children.is_empty()) {
+            (Some(alternate), _) => {
+                node.children = vec![alternate];
+                (Severity::Note, "its alternateRep is used".to_owned())
+            }
+            (None, false) => (
+                Severity::Warning,
+                "the nodes in it are used as in a Group".to_owned(),
+            ),
+            (None, true) => {
+                let guess = Class::closest(&class);
+                let guess =
+                    guess.map_or(String::new(), |c| format!("; did you mean {}?", c.name()));
+                (Severity::Warning, format!("it was left out{guess}"))
+            }
+        };
+        let span = head(tree.node(id).span, tree.node(id).class.len());
+        self.problem(
+            severity,
+            "unknown-class",
+            format!("the node class `{class}` is not known"),
+            &what,
+            span,
+        );
+    }
+}
+
+fn head(span: Span, len: usize) -> Span {
+    Span {
+        start: span.start,
+        end: span.end.min(span.start + len as u32),
+    }
+}
+
+/// A field whose name differs by case or one letter.
+fn closest_field(class: Class, name: &str) -> Option<&'static str> {
+    let near = |known: &str| {
+        if known.eq_ignore_ascii_case(name) {
+            return true;
+        }
+        // One letter more, less, wrong, or two swapped: the same letters outside a short middle.
+        let same_start = known
+            .bytes()
+            .zip(name.bytes())
+            .take_while(|(a, b)| a == b)
+            .count();
+        let rest = |s: &str| s.len() - same_start;
+        let same_end = known
+            .bytes()
+            .rev()
+            .zip(name.bytes().rev())
+            .take(rest(known).min(rest(name)))
+            .take_while(|(a, b)| a == b)
+            .count();
+        name.len() > 2 && rest(known) - same_end <= 2 && rest(name) - same_end <= 2
+    };
+    class
+        .spec()
+        .fields
+        .iter()
+        .map(|f| f.name)
+        .find(|known| near(known))
+}

@@ -1,0 +1,83 @@
+//! Node kits: nodes that fill a fixed catalog of parts. The parts stand as node fields in the
+//! catalog's order, which is the order of traversal; a part that holds others stands before them.
+
+macro_rules! kits {
+    ([$next:ident $($rest:ident)*] $($seen:tt)*) => { $next! { [$($rest)*] $($seen)* Kit {
+
+NodeKitListPart: Node, Planned, [],
+    "A part that is a list: a container of one class whose children are of the named classes." {
+    containerTypeName: SFName = "\"Group\"";
+    childTypeNames: MFName = "\"Node\"";
+    containerNode: SFNode = "NULL";
+}
+BaseKit: Node, Planned, [KIT],
+    "A kit without parts of its own." {}
+AppearanceKit: BaseKit, Planned, [KIT],
+    "Appearance nodes." {
+    lightModel: SFNode = "NULL";
+    environment: SFNode = "NULL";
+    drawStyle: SFNode = "NULL";
+    material: SFNode = "NULL";
+    complexity: SFNode = "NULL";
+    texture2: SFNode = "NULL";
+    font: SFNode = "NULL";
+}
+SeparatorKit: BaseKit, Planned, [KIT, SEPARATOR, SEPARATOR_KIT],
+    "A Separator with appearance, transform and children." {
+    childList: SFNode = "NULL";
+}
+ShapeKit: SeparatorKit, Planned, [KIT, SEPARATOR, SEPARATOR_KIT],
+    "A shape with its properties; without a shape part it is a Cube." {
+    materialBinding: SFNode = "NULL";
+    normalBinding: SFNode = "NULL";
+    textureCoordinateBinding: SFNode = "NULL";
+    shapeHints: SFNode = "NULL";
+    coordinate3: SFNode = "NULL";
+    coordinate4: SFNode = "NULL";
+    normal: SFNode = "NULL";
+    textureCoordinate2: SFNode = "NULL";
+    profileCoordinate2: SFNode = "NULL";
+    profileCoordinate3: SFNode = "NULL";
+    profileList: SFNode = "NULL";
+    childList: SFNode = "NULL";
+    textureCoordinateFunction: SFNode = "NULL";
+    localTransform: SFNode = "NULL";
+    shapeSeparator: SFNode = "NULL";
+    shape: SFNode = "NULL";
+}
+WrapperKit: SeparatorKit, Planned, [KIT, SEPARATOR, SEPARATOR_KIT],
+    "Any nodes, as a kit." {
+    childList: SFNode = "NULL";
+    localTransform: SFNode = "NULL";
+    contents: SFNode = "NULL";
+}
+SceneKit: BaseKit, Planned, [KIT],
+    "Cameras, lights and children; the container of cameraList is a Switch." {
+    topSeparator: SFNode = "NULL";
+    cameraList: SFNode = "NULL";
+    lightList: SFNode = "NULL";
+    childList: SFNode = "NULL";
+}
+CameraKit: BaseKit, Planned, [KIT],
+    "A camera and its transform; without a camera part it is a PerspectiveCamera." {
+    transformGroup: SFNode = "NULL";
+    transform: SFNode = "NULL";
+    camera: SFNode = "NULL";
+}
+LightKit: BaseKit, Planned, [KIT],
+    "A light, its transform and a shape to show it; without a light part it is a DirectionalLight." {
+    transformGroup: SFNode = "NULL";
+    transform: SFNode = "NULL";
+    light: SFNode = "NULL";
+    iconSeparator: SFNode = "NULL";
+    icon: SFNode = "NULL";
+}
+InteractionKit: BaseKit, Planned, [KIT, SEPARATOR],
+    "The base of draggers." {
+    topSeparator: SFNode = "NULL";
+    geomSeparator: SFNode = "NULL";
+}
+
+    } } };
+}
+pub(super) use kits;

@@ -1,0 +1,119 @@
+//! The walk: from the scene graph to the resolved scene.
+//!
+//! One generic traversal on an explicit stack. Groups that push restore the whole state, groups
+//! that leak restore nothing, `TransformSeparator` the matrix only. Shapes are handed to `shape`,
+//! results to the builder, which shares what is equal.
+
+mod builder;
+mod lights;
+mod properties;
+mod shapes;
+mod state;
+mod transforms;
+mod walk;
+
+use std::sync::Arc;
+
+use iv_parser::{Diagnostic, SourcePos};
+
+use crate::graph::Graph;
+use crate::remarks::Remarks;
+use crate::scene::Scene;
+use crate::shape::Measure;
+
+pub(crate) use state::{Binding, ColorSource, Ordering, State, Style, TexCoords};
+
+/// How much of the geometry is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Geometry {
+    /// Meshes.
+    Build,
+    /// Counts and bounds only: [`Resolved::measures`].
+    Measure,
+}
+
+/// Named limits: a small file can ask for any number of copies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResolveLimits {
+    /// Nodes visited, every occurrence counted; about a second of work.
+    pub steps: usize,
+    /// Nesting, sharing included.
+    pub depth: usize,
+    /// Nodes, instances, lights and cameras in the scene together.
+    pub items: usize,
+    /// Bytes of geometry made.
+    pub geometry_bytes: usize,
+}
+
+impl Default for ResolveLimits {
+    fn default() -> Self {
+        Self {
+            steps: 20_000_000,
+            depth: 1000,
+            items: 2_000_000,
+            geometry_bytes: 16 << 30,
+        }
+    }
+}
+
+/// What to resolve and how.
+#[derive(Clone, Copy, Debug)]
+pub struct ResolveOptions {
+    /// Make meshes, or only measure.
+    pub geometry: Geometry,
+    /// Whether `DrawStyle` changes what is drawn: off, invisible shapes and wireframes come as
+    /// filled ones.
+    pub draw_styles: bool,
+    /// Limits.
+    pub limits: ResolveLimits,
+}
+
+impl Default for ResolveOptions {
+    fn default() -> Self {
+        Self {
+            geometry: Geometry::Build,
+            draw_styles: true,
+            limits: ResolveLimits::default(),
+        }
+    }
+}
+
+/// A resolved scene, and what was wrong on the way.
+#[derive(Clone, Debug)]
+pub struct Resolved {
+    /// The scene.
+    pub scene: Scene,
+    /// With [`Geometry::Measure`]: for each mesh of the scene (which then has no vertices) its
+    /// size.
+    pub measures: Vec<Measure>,
+    /// One for each kind of remark.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Resolves a graph.
+pub fn resolve(graph: &Graph, options: &ResolveOptions) -> Resolved {
+    let files: Vec<Arc<str>> = graph.files.iter().map(|f| Arc::clone(&f.name)).collect();
+    let mut walk = walk::Walk::new(graph, options);
+    walk.run();
+    let (mut scene, measures, remarks) = walk.finish();
+    scene.files = files;
+    let diagnostics = remarks.into_diagnostics(&scene.files);
+    if options.geometry == Geometry::Build {
+        debug_assert_eq!(scene.check(), Vec::new());
+    }
+    Resolved {
+        scene,
+        measures,
+        diagnostics,
+    }
+}
+
+/// Says once that a class is read but not carried over.
+fn not_supported(remarks: &mut Remarks, class: &str, pos: SourcePos) {
+    remarks.warn(
+        "not-supported",
+        &format!("{class} is read, but not carried over by this version"),
+        "see docs/NODES.md for what is",
+        pos,
+    );
+}

@@ -1,0 +1,225 @@
+//! Property nodes: those that only write into the state.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use crate::graph::{FieldValue, Node, NodeId};
+use crate::registry::Class;
+use crate::scene::{Environment, Fog, FogType, LightModel};
+
+use super::state::{Binding, ColorSource, Ordering, State, Style, TexCoords};
+use super::walk::Walk;
+
+impl Walk<'_> {
+    /// Applies a property node; false if it is none.
+    pub(super) fn property(&mut self, class: Class, id: NodeId) -> bool {
+        let graph = self.graph;
+        let node = graph.node(id);
+        let state = &mut self.state;
+        match class {
+            Class::Coordinate3 | Class::Coordinate4 => {
+                if !node.is_ignored("point") {
+                    state.coordinates = Some(id);
+                }
+            }
+            Class::Normal => {
+                if !node.is_ignored("vector") {
+                    state.normals = (!node.numbers("vector").is_empty()).then_some(id);
+                }
+            }
+            Class::TextureCoordinate2 => {
+                let given = !node.numbers("point").is_empty() && !node.is_ignored("point");
+                state.texcoords = if given {
+                    TexCoords::List(id)
+                } else {
+                    TexCoords::Default
+                };
+            }
+            Class::TextureCoordinateDefault => state.texcoords = TexCoords::Default,
+            Class::TextureCoordinatePlane | Class::TextureCoordinateObject => {
+                state.texcoords = TexCoords::Function(id);
+            }
+            Class::VertexProperty => vertex_property(node, id, state),
+            Class::NormalBinding => {
+                state.normal_binding =
+                    Binding::from_word(node.word("value"), Binding::PerVertexIndexed);
+            }
+            Class::MaterialBinding => {
+                state.material_binding = Binding::from_word(node.word("value"), Binding::Overall);
+            }
+            Class::TextureCoordinateBinding => {
+                state.texcoord_binding =
+                    Binding::from_word(node.word("value"), Binding::PerVertexIndexed);
+            }
+            Class::Material => material(node, id, state),
+            Class::BaseColor => {
+                if !node.numbers("rgb").is_empty() && !node.is_ignored("rgb") {
+                    state.material.diffuse = ColorSource::Base(id);
+                    state.material.transparency = ColorSource::Base(id);
+                }
+            }
+            Class::PackedColor => {
+                if !node.ints("orderedRGBA").is_empty() && !node.is_ignored("orderedRGBA") {
+                    state.material.diffuse = ColorSource::Packed(id);
+                    state.material.transparency = ColorSource::Packed(id);
+                }
+            }
+            Class::LightModel => {
+                state.light_model = match node.word("model") {
+                    "BASE_COLOR" => LightModel::BaseColor,
+                    _ => LightModel::Phong,
+                };
+            }
+            Class::ShapeHints => shape_hints(node, state, self.vrml1),
+            Class::Complexity => {
+                if !node.is_ignored("value") {
+                    state.complexity = node.number("value").clamp(0.0, 1.0);
+                }
+            }
+            Class::DrawStyle => draw_style(node, state),
+            Class::Texture2 => {
+                let image = matches!(node.value("image"), FieldValue::Image(Some(_)));
+                let file = node.text("filename").is_some_and(|name| !name.is_empty());
+                // An empty Texture2 turns texturing off.
+                state.texture = (image || file).then_some(id);
+            }
+            Class::Texture2Transform => {
+                state.texture_transform *= texture_transform(node);
+            }
+            Class::TextureMatrixTransform => {
+                if let Ok(m) = <[f64; 16]>::try_from(node.numbers("matrix")) {
+                    state.texture_transform *= DMat3::from_cols(
+                        DVec3::new(m[0], m[1], m[3]),
+                        DVec3::new(m[4], m[5], m[7]),
+                        DVec3::new(m[12], m[13], m[15]),
+                    );
+                }
+            }
+            Class::Environment => self.environment(node),
+            _ => return false,
+        }
+        true
+    }
+
+    fn environment(&mut self, node: &Node) {
+        let fog_type = match node.word("fogType") {
+            "HAZE" => Some(FogType::Haze),
+            "FOG" => Some(FogType::Fog),
+            "SMOKE" => Some(FogType::Smoke),
+            _ => None,
+        };
+        let environment = Environment {
+            ambient_intensity: node.number("ambientIntensity"),
+            ambient_color_srgb: node.triple("ambientColor"),
+            attenuation: node.triple("attenuation"),
+            fog: fog_type.map(|fog_type| Fog {
+                fog_type,
+                color_srgb: node.triple("fogColor"),
+                visibility: node.number("fogVisibility"),
+            }),
+        };
+        self.state.environment_id = self.builder.environment(&environment);
+        self.state.environment = environment;
+    }
+}
+
+/// Fields that hold something take the place of the state's.
+fn vertex_property(node: &Node, id: NodeId, state: &mut State) {
+    if !node.numbers("vertex").is_empty() {
+        state.coordinates = Some(id);
+    }
+    if !node.numbers("normal").is_empty() {
+        state.normals = Some(id);
+        state.normal_binding =
+            Binding::from_word(node.word("normalBinding"), Binding::PerVertexIndexed);
+    }
+    if !node.numbers("texCoord").is_empty() {
+        state.texcoords = TexCoords::List(id);
+    }
+    if !node.ints("orderedRGBA").is_empty() {
+        state.material.diffuse = ColorSource::Packed(id);
+        state.material.transparency = ColorSource::Packed(id);
+        state.material_binding = Binding::from_word(node.word("materialBinding"), Binding::Overall);
+    }
+}
+
+/// A Material sets all six properties, those not written to their defaults; an empty list or an
+/// ignored field leaves the state alone (Coin's SoMaterial).
+fn material(node: &Node, id: NodeId, state: &mut State) {
+    let sets = |field: &str| !node.is_ignored(field) && !node.numbers(field).is_empty();
+    let material = &mut state.material;
+    material.node = Some(id);
+    if sets("diffuseColor") {
+        material.diffuse = ColorSource::Material(id);
+    }
+    if sets("transparency") {
+        material.transparency = ColorSource::Material(id);
+    }
+    if sets("ambientColor") {
+        material.ambient = node.triple("ambientColor");
+    }
+    if sets("specularColor") {
+        material.specular = node.triple("specularColor");
+    }
+    if sets("emissiveColor") {
+        material.emissive = node.triple("emissiveColor");
+    }
+    if sets("shininess") {
+        material.shininess = node.number("shininess").clamp(0.0, 1.0);
+    }
+}
+
+fn shape_hints(node: &Node, state: &mut State, vrml1: bool) {
+    if !node.is_ignored("vertexOrdering") {
+        state.hints.ordering = match node.word("vertexOrdering") {
+            "CLOCKWISE" => Ordering::Clockwise,
+            "COUNTERCLOCKWISE" => Ordering::CounterClockwise,
+            _ => Ordering::Unknown,
+        };
+    }
+    if !node.is_ignored("shapeType") {
+        state.hints.solid = node.word("shapeType") == "SOLID";
+    }
+    if !node.is_ignored("creaseAngle") {
+        let default = if vrml1 { 0.5 } else { 0.0 };
+        let given = node.entry("creaseAngle").is_some();
+        state.hints.crease_angle_rad = if given {
+            node.number("creaseAngle")
+        } else {
+            default
+        };
+    }
+}
+
+fn draw_style(node: &Node, state: &mut State) {
+    let style = &mut state.draw_style;
+    if !node.is_ignored("style") {
+        style.style = match node.word("style") {
+            "LINES" => Style::Lines,
+            "POINTS" => Style::Points,
+            "INVISIBLE" => Style::Invisible,
+            _ => Style::Filled,
+        };
+    }
+    if !node.is_ignored("lineWidth") {
+        style.line_width_px = node.number("lineWidth").max(0.0);
+    }
+    if !node.is_ignored("pointSize") {
+        style.point_size_px = node.number("pointSize").max(0.0);
+    }
+    if !node.is_ignored("linePattern") {
+        style.line_pattern = node.int("linePattern") as u16;
+    }
+}
+
+/// Scale, then rotate, about `center`; then translate (Coin's SoTexture2Transform).
+fn texture_transform(node: &Node) -> DMat3 {
+    let pair = |field: &str| match node.numbers(field) {
+        [x, y, ..] => DVec2::new(*x, *y),
+        _ => DVec2::ZERO,
+    };
+    let center = pair("center");
+    DMat3::from_translation(pair("translation") + center)
+        * DMat3::from_angle(node.number("rotation"))
+        * DMat3::from_scale(pair("scaleFactor"))
+        * DMat3::from_translation(-center)
+}

@@ -1,0 +1,151 @@
+//! Shapes: from the state to an instance with a mesh and a material.
+
+use std::sync::Arc;
+
+use crate::graph::{FieldValue, NodeId};
+use crate::registry::Class;
+use crate::scene::{
+    Faces, Instance, LightModel, Material, Texture, TextureId, TextureModel, TextureSource, Wrap,
+};
+use crate::shape::{Attributes, Job, Made, ShapeMaker, is_closed};
+
+use super::Geometry;
+use super::state::{Ordering, State, Style};
+use super::walk::Walk;
+
+impl Walk<'_> {
+    /// Adds a shape; false if it is none that is drawn here.
+    pub(super) fn shape(&mut self, class: Class, id: NodeId) -> bool {
+        if !ShapeMaker::knows(class) {
+            return false;
+        }
+        let style = if self.options.draw_styles {
+            self.state.draw_style.style
+        } else {
+            Style::Filled
+        };
+        if style == Style::Invisible {
+            return true;
+        }
+        let graph = self.graph;
+        let state = self.state.clone();
+        let job = Job {
+            graph,
+            class,
+            node: id,
+            state: &state,
+            lit: state.light_model == LightModel::Phong,
+            style,
+        };
+        let builder = &mut self.builder;
+        let made = match self.options.geometry {
+            Geometry::Build => {
+                let limit = self.options.limits.geometry_bytes;
+                self.shapes
+                    .mesh(&job, &mut self.remarks, limit, |mesh| builder.mesh(mesh))
+            }
+            Geometry::Measure => self
+                .shapes
+                .measure(&job, |measure| builder.measure(measure)),
+        };
+        if let Some(made) = made
+            && let Some(placement) = self.place(id)
+        {
+            let material = self.material(&job, &made);
+            self.builder.instance(Instance {
+                placement,
+                mesh: made.mesh,
+                material,
+                light_set: state.light_set,
+                environment: state.environment_id,
+            });
+        }
+        true
+    }
+
+    fn material(&mut self, job: &Job<'_>, made: &Made) -> crate::scene::MaterialId {
+        let attributes = Attributes::of(job);
+        let state = job.state;
+        let graph = self.graph;
+        let node = state.material.node.map(|id| graph.node(id));
+        let texture = if made.textured { state.texture } else { None };
+        let texture = texture.map(|id| self.texture(id));
+        let material = &state.material;
+        let is_primitive = is_closed(job.class, &attributes);
+        self.builder.material(Material {
+            name: node.and_then(|n| n.name.clone()),
+            ambient_srgb: unit_color(material.ambient),
+            diffuse_srgb: attributes.colors.diffuse_srgb(0),
+            specular_srgb: unit_color(material.specular),
+            emissive_srgb: unit_color(material.emissive),
+            shininess: material.shininess,
+            transparency: attributes.colors.transparency(0),
+            // What has no normals cannot be lit.
+            light_model: if made.lit {
+                state.light_model
+            } else {
+                LightModel::BaseColor
+            },
+            faces: if is_primitive && job.style == Style::Filled {
+                Faces::FrontOnly
+            } else {
+                faces(state)
+            },
+            texture,
+            line_width_px: state.draw_style.line_width_px,
+            point_size_px: state.draw_style.point_size_px,
+            line_pattern: state.draw_style.line_pattern,
+            pos: node.map(|n| n.pos).unwrap_or_default(),
+        })
+    }
+
+    fn texture(&mut self, id: NodeId) -> TextureId {
+        let graph = self.graph;
+        let node = graph.node(id);
+        let wrap = |field: &str| {
+            if node.word(field) == "CLAMP" {
+                Wrap::Clamp
+            } else {
+                Wrap::Repeat
+            }
+        };
+        let file = node.text("filename").filter(|name| !name.is_empty());
+        self.builder.texture(id, || Texture {
+            name: node.name.clone(),
+            source: match (file, node.value("image")) {
+                (Some(name), _) => TextureSource::File {
+                    name: Arc::clone(name),
+                    beside: graph.files[node.pos.file as usize].folder.clone(),
+                },
+                (None, FieldValue::Image(Some(image))) => TextureSource::Inline(Arc::clone(image)),
+                (None, _) => TextureSource::File {
+                    name: "".into(),
+                    beside: "".into(),
+                },
+            },
+            wrap_s: wrap("wrapS"),
+            wrap_t: wrap("wrapT"),
+            model: match node.word("model") {
+                "DECAL" => TextureModel::Decal,
+                "BLEND" => TextureModel::Blend,
+                "REPLACE" => TextureModel::Replace,
+                _ => TextureModel::Modulate,
+            },
+            blend_color_srgb: unit_color(node.triple("blendColor")),
+            pos: node.pos,
+        })
+    }
+}
+
+fn unit_color(color: [f64; 3]) -> [f64; 3] {
+    color.map(|v| v.clamp(0.0, 1.0))
+}
+
+/// Culling and two-sided lighting (SoShapeHintsElement).
+fn faces(state: &State) -> Faces {
+    match (state.hints.ordering, state.hints.solid) {
+        (Ordering::Unknown, _) => Faces::BothOneSidedLighting,
+        (_, true) => Faces::FrontOnly,
+        (_, false) => Faces::BothTwoSidedLighting,
+    }
+}

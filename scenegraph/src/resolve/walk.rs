@@ -1,0 +1,437 @@
+//! The traversal itself: which nodes are visited, in which order, with which state.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+use iv_parser::{Dialect, Severity};
+
+use crate::graph::{Graph, Kind, Node, NodeId};
+use crate::registry::{Class, Family, Support};
+use crate::remarks::Remarks;
+use crate::scene::{self, Placement, Scene};
+use crate::shape::{Measure, ShapeMaker};
+
+use super::builder::Builder;
+use super::state::State;
+use super::{ResolveOptions, not_supported, transforms};
+
+/// What a group restores when it ends.
+enum Keep {
+    /// The whole state.
+    All(Box<State>),
+    /// The matrix.
+    Matrix {
+        base: usize,
+        relative: DAffine3,
+        world: DAffine3,
+        units_m: f64,
+    },
+    /// Nothing: what it sets leaks to its following siblings.
+    Nothing,
+}
+
+/// A group being traversed.
+struct Open {
+    node: NodeId,
+    /// Children still to visit: positions in the node's list.
+    next: usize,
+    end: usize,
+    keep: Keep,
+    copies: Option<Copies>,
+}
+
+/// The copies of an `Array` or `MultipleCopy` still to come.
+struct Copies {
+    next: u64,
+    total: u64,
+}
+
+/// The frame of an open group.
+pub(super) struct Frame {
+    node: NodeId,
+    parent_base: usize,
+    parent_from_local: DAffine3,
+    /// Made when something in it is placed.
+    scene_node: Option<scene::NodeId>,
+    notes: Vec<Arc<str>>,
+}
+
+pub(super) struct Walk<'g> {
+    pub graph: &'g Graph,
+    pub options: &'g ResolveOptions,
+    pub state: State,
+    pub builder: Builder,
+    pub remarks: Remarks,
+    pub shapes: ShapeMaker,
+    pub vrml1: bool,
+    stack: Vec<Open>,
+    frames: Vec<Frame>,
+    steps: usize,
+}
+
+impl<'g> Walk<'g> {
+    pub fn new(graph: &'g Graph, options: &'g ResolveOptions) -> Self {
+        let vrml1 = graph
+            .files
+            .first()
+            .is_some_and(|f| f.header.dialect == Dialect::Vrml1);
+        let mut builder = Builder::default();
+        let state = State::new(vrml1);
+        builder.light_set(&state.lights);
+        builder.environment(&state.environment);
+        Self {
+            graph,
+            options,
+            state,
+            builder,
+            remarks: Remarks::default(),
+            shapes: ShapeMaker::default(),
+            vrml1,
+            stack: Vec::new(),
+            frames: Vec::new(),
+            steps: 0,
+        }
+    }
+
+    pub fn run(&mut self) {
+        self.visit(self.graph.root);
+        while let Some(open) = self.stack.last_mut() {
+            if open.next < open.end {
+                let child = self.graph.node(open.node).children[open.next];
+                open.next += 1;
+                self.visit(child);
+            } else if open.copies.as_ref().is_some_and(|c| c.next < c.total) {
+                self.next_copy();
+            } else if let Some(open) = self.stack.pop() {
+                self.leave(open);
+            }
+        }
+    }
+
+    pub fn finish(self) -> (Scene, Vec<Measure>, Remarks) {
+        let (scene, measures) = self.builder.finish();
+        (scene, measures, self.remarks)
+    }
+
+    fn visit(&mut self, id: NodeId) {
+        self.steps += 1;
+        if self.steps > self.options.limits.steps {
+            let pos = self.graph.node(id).pos;
+            self.remarks.add(
+                Severity::Error,
+                "too-many-nodes",
+                "the model has more occurrences of nodes than can be resolved",
+                "the rest was left out",
+                pos,
+            );
+            self.stack.iter_mut().for_each(|open| {
+                open.next = open.end;
+                open.copies = None;
+            });
+            return;
+        }
+        let graph = self.graph;
+        let node = graph.node(id);
+        let class = match node.kind {
+            Kind::Known(class) => class,
+            Kind::Unknown(_) => return self.open(id, 0, node.children.len(), true),
+        };
+        let spec = class.spec();
+        let class = class.acts_as();
+        let done = match class.spec().family {
+            Family::Transform => transforms::apply(class, node, &mut self.state, &mut self.remarks),
+            Family::Appearance | Family::Property => self.property(class, id),
+            Family::Shape => self.shape(class, id),
+            Family::Group => {
+                self.group(class, id, node);
+                true
+            }
+            Family::Light => self.light(class, id),
+            Family::Camera => self.camera(class, id),
+            Family::Information => {
+                self.note(class, node);
+                true
+            }
+            _ => false,
+        };
+        if !done && spec.support != Support::Kept {
+            not_supported(&mut self.remarks, spec.name, node.pos);
+        }
+    }
+
+    /// `Label` and `Info` belong to the group they stand in.
+    fn note(&mut self, class: Class, node: &Node) {
+        let field = match class {
+            Class::Label => "label",
+            Class::Info => "string",
+            _ => return,
+        };
+        if let (Some(frame), Some(text)) = (self.frames.last_mut(), node.text(field)) {
+            frame.notes.push(Arc::clone(text));
+        }
+    }
+
+    fn group(&mut self, class: Class, id: NodeId, node: &Node) {
+        let count = node.children.len();
+        match class {
+            Class::Group | Class::File | Class::WWWInline => self.open(id, 0, count, false),
+            Class::Separator
+            | Class::Annotation
+            | Class::Selection
+            | Class::ExtSelection
+            | Class::LocateHighlight
+            | Class::WWWAnchor => self.open(id, 0, count, true),
+            Class::TransformSeparator => {
+                let State {
+                    base,
+                    relative,
+                    world,
+                    units_m,
+                    ..
+                } = self.state;
+                let keep = Keep::Matrix {
+                    base,
+                    relative,
+                    world,
+                    units_m,
+                };
+                self.push(id, 0, count, keep, None);
+            }
+            Class::Switch | Class::Blinker => {
+                let (first, end) = self.chosen(class, node);
+                self.open(id, first, end, false);
+            }
+            // Children of a level-of-detail group go from fine to coarse.
+            Class::LOD | Class::LevelOfDetail => self.open(id, 0, count.min(1), false),
+            Class::Array | Class::MultipleCopy => {
+                let total = copies(class, node);
+                let keep = Keep::All(Box::new(self.state.clone()));
+                self.push(id, count, count, keep, Some(Copies { next: 0, total }));
+            }
+            Class::PathSwitch => not_supported(&mut self.remarks, class.name(), node.pos),
+            _ => self.open(id, 0, count, false),
+        }
+    }
+
+    /// The range of children that a `Switch` shows.
+    fn chosen(&mut self, class: Class, node: &Node) -> (usize, usize) {
+        let count = node.children.len();
+        let which = if node.is_ignored("whichChild") {
+            -1
+        } else {
+            node.int("whichChild")
+        };
+        let which = match which {
+            -2 if self.state.choice >= 0 && count > 0 => self.state.choice % count as i32,
+            -1 if class == Class::Blinker => 0,
+            other => other,
+        };
+        match usize::try_from(which) {
+            Ok(i) if i < count => {
+                self.state.choice = which;
+                (i, i + 1)
+            }
+            Err(_) if which == -3 => (0, count),
+            _ => (0, 0),
+        }
+    }
+
+    fn open(&mut self, id: NodeId, first: usize, end: usize, isolates: bool) {
+        if first == end {
+            return;
+        }
+        let keep = if isolates {
+            Keep::All(Box::new(self.state.clone()))
+        } else {
+            Keep::Nothing
+        };
+        self.push(id, first, end, keep, None);
+    }
+
+    fn push(&mut self, node: NodeId, next: usize, end: usize, keep: Keep, copies: Option<Copies>) {
+        if self.stack.len() >= self.options.limits.depth {
+            let pos = self.graph.node(node).pos;
+            self.remarks.add(
+                Severity::Error,
+                "too-deep",
+                "groups are nested too deeply",
+                "the contents of the innermost were left out",
+                pos,
+            );
+            return;
+        }
+        self.frames.push(Frame {
+            node,
+            parent_base: self.state.base,
+            parent_from_local: self.state.relative,
+            scene_node: None,
+            notes: Vec::new(),
+        });
+        self.state.base = self.frames.len();
+        self.state.relative = DAffine3::IDENTITY;
+        self.stack.push(Open {
+            node,
+            next,
+            end,
+            keep,
+            copies,
+        });
+    }
+
+    fn leave(&mut self, open: Open) {
+        let depth = self.frames.len();
+        let Some(frame) = self.frames.pop() else {
+            return;
+        };
+        if let Some(node) = frame.scene_node {
+            self.builder.set_notes(node, frame.notes);
+        }
+        match open.keep {
+            Keep::All(state) => self.state = *state,
+            Keep::Matrix {
+                base,
+                relative,
+                world,
+                units_m,
+            } => {
+                self.state.base = base;
+                self.state.relative = relative;
+                self.state.world = world;
+                self.state.units_m = units_m;
+            }
+            // A ResetTransform inside has left the frame already.
+            Keep::Nothing if self.state.base == depth => {
+                self.state.base = frame.parent_base;
+                self.state.relative = frame.parent_from_local * self.state.relative;
+            }
+            Keep::Nothing => {}
+        }
+    }
+
+    /// Begins the next copy of the innermost `Array` or `MultipleCopy`.
+    fn next_copy(&mut self) {
+        self.steps += 1;
+        let depth = self.frames.len();
+        let Some(Open {
+            node,
+            next,
+            keep: Keep::All(saved),
+            copies: Some(copies),
+            ..
+        }) = self.stack.last_mut()
+        else {
+            return;
+        };
+        let index = copies.next;
+        copies.next += 1;
+        *next = 0;
+        let world = saved.world;
+        self.state = (**saved).clone();
+        self.state.base = depth;
+        self.state.relative = DAffine3::IDENTITY;
+        self.state.world = world;
+        self.state.choice = index.min(i32::MAX as u64) as i32;
+        let graph = self.graph;
+        let node = graph.node(*node);
+        let local = if node.class() == Some(Class::Array) {
+            DAffine3::from_translation(array_offset(node, index))
+        } else {
+            let at = index as usize * 16;
+            let numbers = node.numbers("matrix").get(at..at + 16);
+            let matrix = numbers.and_then(|m| <&[f64; 16]>::try_from(m).ok());
+            matrix.map_or(DAffine3::IDENTITY, |m| {
+                transforms::affine(m, node, &mut self.remarks)
+            })
+        };
+        self.state.transform(&local);
+    }
+
+    /// Where something of the current state hangs; `None` if it cannot be placed.
+    pub(super) fn place(&mut self, id: NodeId) -> Option<Placement> {
+        let node = self.graph.node(id);
+        if !self.state.world.is_finite() {
+            self.remarks.add(
+                Severity::Error,
+                "transform-overflow",
+                "transforms multiply to something without a finite value",
+                "what they place was left out",
+                node.pos,
+            );
+            return None;
+        }
+        if self.builder.items() >= self.options.limits.items {
+            self.remarks.add(
+                Severity::Error,
+                "too-many-items",
+                "the model has more parts than can be resolved",
+                "the rest was left out",
+                node.pos,
+            );
+            return None;
+        }
+        Some(Placement {
+            node: self.scene_node(self.state.base),
+            parent_from_local: self.state.relative,
+            world_from_local: self.state.world,
+            name: node.name.clone(),
+            pos: node.pos,
+        })
+    }
+
+    /// The scene's node for the frame number `base`, made with all those around it if need be.
+    fn scene_node(&mut self, base: usize) -> Option<scene::NodeId> {
+        let mut missing = Vec::new();
+        let mut at = base;
+        while at > 0 && self.frames[at - 1].scene_node.is_none() {
+            missing.push(at - 1);
+            at = self.frames[at - 1].parent_base;
+        }
+        let mut parent = at.checked_sub(1).and_then(|i| self.frames[i].scene_node);
+        for i in missing.into_iter().rev() {
+            let frame = &mut self.frames[i];
+            let node = self.graph.node(frame.node);
+            let class = self.builder.class_name(node.class_name());
+            let made = self.builder.node(scene::Node {
+                parent,
+                name: node.name.clone(),
+                class,
+                notes: Vec::new(),
+                parent_from_local: frame.parent_from_local,
+                pos: node.pos,
+            });
+            frame.scene_node = Some(made);
+            parent = Some(made);
+        }
+        parent
+    }
+}
+
+fn copies(class: Class, node: &Node) -> u64 {
+    if class == Class::MultipleCopy {
+        return (node.numbers("matrix").len() / 16) as u64;
+    }
+    let count = |field: &str| node.int(field).max(0) as u64;
+    count("numElements1") * count("numElements2") * count("numElements3")
+}
+
+/// Direction 1 varies fastest; `origin` says whether the first, the middle or the last copy stays
+/// in place.
+fn array_offset(node: &Node, index: u64) -> DVec3 {
+    let mut offset = DVec3::ZERO;
+    let mut rest = index;
+    for (elements, separation) in [
+        ("numElements1", "separation1"),
+        ("numElements2", "separation2"),
+        ("numElements3", "separation3"),
+    ] {
+        let count = node.int(elements).max(1) as u64;
+        let shift = match node.word("origin") {
+            "CENTER" => (count - 1) as f64 / 2.0,
+            "LAST" => (count - 1) as f64,
+            _ => 0.0,
+        };
+        offset += DVec3::from(node.triple(separation)) * ((rest % count) as f64 - shift);
+        rest /= count;
+    }
+    offset
+}

@@ -1,0 +1,140 @@
+//! The arrays and bindings that a shape sees: those of the state, or of its `vertexProperty`.
+
+use glam::DMat3;
+use iv_parser::SourcePos;
+
+use crate::graph::{Graph, Node, NodeId};
+use crate::registry::Class;
+use crate::resolve::{Binding, ColorSource, Ordering, TexCoords};
+
+use super::Job;
+use super::color::Colors;
+
+/// What a shape is made from.
+pub struct Attributes<'g> {
+    /// The shape node.
+    pub node: &'g Node,
+    pub pos: SourcePos,
+    /// Coordinates, flat.
+    pub coordinates: &'g [f64],
+    /// Numbers a coordinate: 3, or 4 with a weight.
+    pub coordinate_size: usize,
+    /// Normals, flat; empty to have them made.
+    pub normals: &'g [f64],
+    pub normal_binding: Binding,
+    pub colors: Colors<'g>,
+    pub color_binding: Binding,
+    /// `None` when nothing shows a texture.
+    pub texcoords: Option<TexCoordSource<'g>>,
+    pub texcoord_binding: Binding,
+    pub texture_transform: DMat3,
+    pub ordering: Ordering,
+    pub crease_angle_rad: f64,
+}
+
+/// Where texture coordinates come from.
+#[derive(Clone, Copy)]
+pub enum TexCoordSource<'g> {
+    /// The bounding box.
+    Default,
+    /// A list of pairs, flat.
+    List(&'g [f64]),
+    /// `TextureCoordinatePlane` or `TextureCoordinateObject`.
+    Function(&'g Node),
+}
+
+impl<'g> Attributes<'g> {
+    pub fn of(job: &Job<'g>) -> Self {
+        let graph = job.graph;
+        let state = job.state;
+        let node = graph.node(job.node);
+        let (mut coordinates, mut coordinate_size) = coordinates_of(graph, state.coordinates);
+        let mut normals = state
+            .normals
+            .map_or(&[][..], |id| normals_of(graph.node(id)));
+        let mut normal_binding = state.normal_binding;
+        let mut diffuse = state.material.diffuse;
+        let mut transparency = state.material.transparency;
+        let mut color_binding = state.material_binding;
+        let mut texcoords = match state.texcoords {
+            TexCoords::Default => TexCoordSource::Default,
+            TexCoords::List(id) => TexCoordSource::List(texcoords_of(graph.node(id))),
+            TexCoords::Function(id) => TexCoordSource::Function(graph.node(id)),
+        };
+        // What a vertexProperty holds takes the place of the state's; its bindings count only
+        // where it holds data for them.
+        if let Some(id) = own_property(graph, node) {
+            let own = graph.node(id);
+            if !own.numbers("vertex").is_empty() {
+                (coordinates, coordinate_size) = (own.numbers("vertex"), 3);
+            }
+            if !own.numbers("normal").is_empty() {
+                normals = own.numbers("normal");
+                normal_binding =
+                    Binding::from_word(own.word("normalBinding"), Binding::PerVertexIndexed);
+            }
+            if !own.ints("orderedRGBA").is_empty() {
+                diffuse = ColorSource::Packed(id);
+                transparency = ColorSource::Packed(id);
+                color_binding = Binding::from_word(own.word("materialBinding"), Binding::Overall);
+            }
+            if !own.numbers("texCoord").is_empty() {
+                texcoords = TexCoordSource::List(own.numbers("texCoord"));
+            }
+        }
+        Self {
+            node,
+            pos: node.pos,
+            coordinates,
+            coordinate_size,
+            normals,
+            normal_binding,
+            colors: Colors::of(graph, diffuse, transparency, color_binding),
+            color_binding,
+            texcoords: state.texture.map(|_| texcoords),
+            texcoord_binding: state.texcoord_binding,
+            texture_transform: state.texture_transform,
+            ordering: state.hints.ordering,
+            crease_angle_rad: state.hints.crease_angle_rad,
+        }
+    }
+
+    /// Number of coordinates.
+    pub fn coordinate_count(&self) -> usize {
+        self.coordinates.len() / self.coordinate_size
+    }
+}
+
+/// The shape's `vertexProperty`, if it has one.
+fn own_property(graph: &Graph, node: &Node) -> Option<NodeId> {
+    node.class()?.spec().field(b"vertexProperty")?;
+    let id = node.node_field("vertexProperty")?;
+    (graph.node(id).class() == Some(Class::VertexProperty)).then_some(id)
+}
+
+fn coordinates_of(graph: &Graph, id: Option<NodeId>) -> (&[f64], usize) {
+    let Some(id) = id else {
+        // Inventor's default coordinate list holds the origin.
+        return (&[0.0; 3], 3);
+    };
+    let node = graph.node(id);
+    match node.class() {
+        Some(Class::Coordinate4) => (node.numbers("point"), 4),
+        Some(Class::VertexProperty) => (node.numbers("vertex"), 3),
+        _ => (node.numbers("point"), 3),
+    }
+}
+
+fn normals_of(node: &Node) -> &[f64] {
+    match node.class() {
+        Some(Class::VertexProperty) => node.numbers("normal"),
+        _ => node.numbers("vector"),
+    }
+}
+
+fn texcoords_of(node: &Node) -> &[f64] {
+    match node.class() {
+        Some(Class::VertexProperty) => node.numbers("texCoord"),
+        _ => node.numbers("point"),
+    }
+}

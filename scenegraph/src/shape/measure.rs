@@ -1,0 +1,109 @@
+//! The size of a shape without making it: counts and bounds from the index lists alone.
+
+use geometry::bounds::Aabb;
+
+use crate::registry::Class;
+use crate::resolve::Style;
+use crate::scene::Topology;
+
+use super::attributes::Attributes;
+use super::{Job, point, primitives};
+
+/// How much a shape draws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measure {
+    /// Of what.
+    pub topology: Topology,
+    /// Triangles (of polygons: corners less two), segments or points. Degenerate ones count.
+    pub primitives: usize,
+    /// Around what is drawn, in the local frame.
+    pub bounds: Aabb,
+}
+
+/// The size of a shape; `None` if it draws nothing.
+pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
+    let topology = match (job.class, job.style) {
+        (Class::LineSet | Class::IndexedLineSet, _) => Topology::Lines,
+        (
+            Class::PointSet | Class::IndexedPointSet | Class::MarkerSet | Class::IndexedMarkerSet,
+            _,
+        ) => Topology::Points,
+        (_, Style::Lines) => Topology::Lines,
+        (_, Style::Points) => Topology::Points,
+        _ => Topology::Triangles,
+    };
+    if let Some(bounds) = primitives::bounds(job.class, attributes) {
+        let primitives = primitives::triangle_count(job.class, attributes, job.state.complexity);
+        return (primitives > 0).then_some(Measure {
+            topology,
+            primitives,
+            bounds,
+        });
+    }
+    let mut bounds = Aabb::EMPTY;
+    let at = |i: usize| point(attributes.coordinates, attributes.coordinate_size, i);
+    // Corners of a run that draw: `less` of them only begin it.
+    let less = match job.class {
+        Class::LineSet | Class::IndexedLineSet => 1,
+        Class::PointSet | Class::IndexedPointSet | Class::MarkerSet | Class::IndexedMarkerSet => 0,
+        _ => 2,
+    };
+    let node = attributes.node;
+    let mut primitives = 0;
+    if node
+        .class()
+        .is_some_and(|c| c.spec().field(b"coordIndex").is_some())
+    {
+        for run in node.ints("coordIndex").split(|&v| v < 0) {
+            let valid = run
+                .iter()
+                .all(|&v| (v as usize) < attributes.coordinate_count());
+            if run.len() > less && valid {
+                primitives += run.len() - less;
+                run.iter()
+                    .filter_map(|&v| at(v as usize))
+                    .for_each(|p| bounds.include(p));
+            }
+        }
+    } else if job.class == Class::QuadMesh {
+        let start = node.int("startIndex").max(0) as usize;
+        let columns = node.int("verticesPerRow").max(0) as usize;
+        let available = attributes.coordinate_count().saturating_sub(start);
+        let rows = (node.int("verticesPerColumn").max(0) as usize)
+            .min(available.checked_div(columns).unwrap_or(0));
+        if rows > 1 && columns > 1 {
+            primitives = 2 * (rows - 1) * (columns - 1);
+            (start..start + rows * columns)
+                .filter_map(at)
+                .for_each(|p| bounds.include(p));
+        }
+    } else {
+        let field = if less == 0 {
+            "numPoints"
+        } else {
+            "numVertices"
+        };
+        let total = attributes.coordinate_count();
+        let mut next = (node.int("startIndex").max(0) as usize).min(total);
+        for &count in node.ints(field) {
+            let len = usize::try_from(count)
+                .unwrap_or(usize::MAX)
+                .min(total - next);
+            if len > less {
+                primitives += len - less;
+                (next..next + len)
+                    .filter_map(at)
+                    .for_each(|p| bounds.include(p));
+            }
+            next += len;
+            if next == total || less == 0 {
+                break;
+            }
+        }
+    }
+    (primitives > 0).then_some(Measure {
+        topology,
+        primitives,
+        bounds,
+    })
+}

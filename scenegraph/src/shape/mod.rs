@@ -1,0 +1,227 @@
+//! Shapes to meshes: bindings resolved, polygons triangulated, normals and texture coordinates
+//! made where the source gives none.
+//!
+//! A shape under the same geometric state gives the same mesh, which is made once. What reads
+//! the state is here and in `attributes`; the other files see plain arrays.
+
+mod assemble;
+mod attributes;
+mod color;
+mod faces;
+mod lines;
+mod measure;
+mod normals;
+mod outline;
+mod primitives;
+mod texcoords;
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use crate::graph::NodeId;
+use crate::registry::Class;
+use crate::remarks::Remarks;
+use crate::resolve::{ColorSource, State, Style, TexCoords};
+use crate::scene::{Mesh, MeshId, Topology};
+
+pub use measure::Measure;
+
+use crate::graph::Graph;
+use assemble::Assembler;
+pub(crate) use attributes::Attributes;
+pub(crate) use primitives::is_closed;
+
+/// All that a mesh depends on.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct MeshKey {
+    shape: NodeId,
+    coordinates: Option<NodeId>,
+    normals: Option<NodeId>,
+    texcoords: Option<TexCoords>,
+    texture_transform: Option<[u64; 9]>,
+    colors: Option<(ColorSource, ColorSource)>,
+    bindings: [crate::resolve::Binding; 3],
+    ordering: crate::resolve::Ordering,
+    crease_angle: u64,
+    complexity: u64,
+    style: Style,
+    lit: bool,
+}
+
+/// A mesh that was made, and what its material must know.
+#[derive(Clone, Copy, Debug)]
+pub struct Made {
+    /// The mesh.
+    pub mesh: MeshId,
+    /// It carries colours.
+    pub colored: bool,
+    /// It carries normals.
+    pub lit: bool,
+    /// It carries texture coordinates.
+    pub textured: bool,
+}
+
+/// Makes meshes, each once.
+#[derive(Default)]
+pub struct ShapeMaker {
+    cache: FxHashMap<MeshKey, Option<Made>>,
+    assembler: Assembler,
+    bytes: usize,
+}
+
+/// A shape to be made: where it is and in which state.
+pub struct Job<'a> {
+    pub graph: &'a Graph,
+    pub class: Class,
+    pub node: NodeId,
+    pub state: &'a State,
+    /// Whether lighting can matter to it.
+    pub lit: bool,
+    /// How polygons are drawn.
+    pub style: Style,
+}
+
+impl ShapeMaker {
+    fn key(job: &Job<'_>, attributes: &Attributes<'_>) -> MeshKey {
+        let state = job.state;
+        let textured = state.texture.is_some();
+        let transform = state.texture_transform;
+        MeshKey {
+            shape: job.node,
+            coordinates: state.coordinates,
+            normals: state.normals,
+            texcoords: textured.then_some(state.texcoords),
+            texture_transform: textured.then(|| transform.to_cols_array().map(f64::to_bits)),
+            colors: (!attributes.colors.is_uniform())
+                .then_some((state.material.diffuse, state.material.transparency)),
+            bindings: [
+                state.normal_binding,
+                state.material_binding,
+                state.texcoord_binding,
+            ],
+            ordering: state.hints.ordering,
+            crease_angle: state.hints.crease_angle_rad.to_bits(),
+            complexity: state.complexity.to_bits(),
+            style: job.style,
+            lit: job.lit,
+        }
+    }
+
+    /// The mesh of a shape, made by `keep` when it is new; `None` if it draws nothing.
+    pub fn mesh(
+        &mut self,
+        job: &Job<'_>,
+        remarks: &mut Remarks,
+        byte_limit: usize,
+        keep: impl FnOnce(Mesh) -> MeshId,
+    ) -> Option<Made> {
+        let attributes = Attributes::of(job);
+        let key = Self::key(job, &attributes);
+        if let Some(known) = self.cache.get(&key) {
+            return *known;
+        }
+        let made = if self.bytes > byte_limit {
+            remarks.warn(
+                "too-much-geometry",
+                "the model makes more geometry than is allowed",
+                "the rest was left out",
+                attributes.pos,
+            );
+            None
+        } else {
+            self.make(job, &attributes, remarks).map(|mesh| {
+                self.bytes += 4 * mesh.indices.len() + 48 * mesh.positions.len();
+                Made {
+                    colored: !mesh.colors_srgb.is_empty(),
+                    lit: !mesh.normals.is_empty(),
+                    textured: !mesh.texcoords.is_empty(),
+                    mesh: keep(mesh),
+                }
+            })
+        };
+        self.cache.insert(key, made);
+        made
+    }
+
+    /// As [`Self::mesh`], without making it.
+    pub fn measure(&mut self, job: &Job<'_>, keep: impl FnOnce(Measure) -> MeshId) -> Option<Made> {
+        let attributes = Attributes::of(job);
+        let key = Self::key(job, &attributes);
+        if let Some(known) = self.cache.get(&key) {
+            return *known;
+        }
+        let made = measure::measure(job, &attributes).map(|measure| Made {
+            colored: !attributes.colors.is_uniform(),
+            lit: measure.topology == Topology::Triangles,
+            textured: job.state.texture.is_some(),
+            mesh: keep(measure),
+        });
+        self.cache.insert(key, made);
+        made
+    }
+
+    fn make(
+        &mut self,
+        job: &Job<'_>,
+        attributes: &Attributes<'_>,
+        remarks: &mut Remarks,
+    ) -> Option<Mesh> {
+        match job.class {
+            Class::Cube | Class::Sphere | Class::Cone | Class::Cylinder => {
+                primitives::mesh(job, attributes)
+                    .and_then(|m| outline::styled_primitive(m, job.style))
+            }
+            Class::LineSet | Class::IndexedLineSet => {
+                let segments = lines::segments(job, attributes, remarks);
+                self.assembler
+                    .assemble(segments, Topology::Lines, attributes, job, remarks)
+            }
+            Class::PointSet
+            | Class::IndexedPointSet
+            | Class::MarkerSet
+            | Class::IndexedMarkerSet => {
+                let points = lines::points(job, attributes, remarks);
+                self.assembler
+                    .assemble(points, Topology::Points, attributes, job, remarks)
+            }
+            _ => {
+                let faces = faces::faces(job, attributes, remarks)?;
+                let (corners, topology) = outline::styled(faces, job.style);
+                self.assembler
+                    .assemble(corners, topology, attributes, job, remarks)
+            }
+        }
+    }
+
+    /// Whether shapes of this class are made here.
+    pub fn knows(class: Class) -> bool {
+        matches!(
+            class,
+            Class::Cube
+                | Class::Sphere
+                | Class::Cone
+                | Class::Cylinder
+                | Class::FaceSet
+                | Class::IndexedFaceSet
+                | Class::TriangleStripSet
+                | Class::IndexedTriangleStripSet
+                | Class::QuadMesh
+                | Class::LineSet
+                | Class::IndexedLineSet
+                | Class::PointSet
+                | Class::IndexedPointSet
+                | Class::MarkerSet
+                | Class::IndexedMarkerSet
+        )
+    }
+}
+
+/// A point of a flat list of coordinates, three or four numbers each.
+fn point(coordinates: &[f64], size: usize, index: usize) -> Option<DVec3> {
+    match *coordinates.get(index * size..(index + 1) * size)? {
+        [x, y, z] => Some(DVec3::new(x, y, z)),
+        [x, y, z, w] if w != 0.0 => Some(DVec3::new(x, y, z) / w),
+        [x, y, z, _] => Some(DVec3::new(x, y, z)),
+        _ => None,
+    }
+}
