@@ -52,6 +52,7 @@ impl Welder {
         // The common widths as constants: comparing and hashing then need no loop.
         match stride {
             3 => self.weld_arrays::<3>(words, remap),
+            4 => self.weld_arrays::<4>(words, remap),
             6 => self.weld_arrays::<6>(words, remap),
             8 => self.weld_arrays::<8>(words, remap),
             _ => self.weld_rows(

@@ -15,6 +15,9 @@ use crate::tree::{FieldId, Numbers, Value};
 /// Runs at least this long get an array of their own, to be passed on without copying.
 const MANY: usize = 64;
 
+/// Runs at least this long are moved rather than copied.
+const HUGE: usize = 1 << 16;
+
 impl Parser<'_> {
     /// Whether a number, or a word for one that is not a number, is here.
     pub(super) fn number_here(&self) -> bool {
@@ -187,19 +190,24 @@ impl Parser<'_> {
                 self.tree.floats.extend_from_slice(&run.floats);
                 Numbers::Floats(start as u32, self.tree.floats.len() as u32)
             }
-            (false, _) => {
-                run.ints.shrink_to_fit();
-                Numbers::ManyInts(Arc::new(std::mem::take(&mut run.ints)))
-            }
-            (true, _) => {
-                run.floats.shrink_to_fit();
-                Numbers::ManyFloats(Arc::new(std::mem::take(&mut run.floats)))
-            }
+            (false, _) => Numbers::ManyInts(Arc::new(taken(&mut run.ints))),
+            (true, _) => Numbers::ManyFloats(Arc::new(taken(&mut run.floats))),
         };
         run.clear();
         self.run = run;
         numbers
     }
+}
+
+/// The values of a buffer, in an array of exactly their size: a huge buffer is given away, others
+/// are copied so that the buffer need not grow again.
+fn taken<T: Copy>(buffer: &mut Vec<T>) -> Vec<T> {
+    if buffer.len() < HUGE {
+        return buffer.clone();
+    }
+    let mut values = std::mem::take(buffer);
+    values.shrink_to_fit();
+    values
 }
 
 /// The numbers of a run read so far: in `ints` until the first float, then in `floats`.

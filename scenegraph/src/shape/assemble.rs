@@ -17,6 +17,7 @@ use super::attributes::Attributes;
 use super::faces::{Corners, Take};
 use super::normals::NormalMaker;
 use super::texcoords::TexCoordMaker;
+use super::values::{Normals, Values};
 use super::{Job, point};
 
 const UNUSED: u32 = u32::MAX;
@@ -29,93 +30,14 @@ pub struct Assembler {
     welder: Welder,
     groups: Vec<u32>,
     words: Vec<u32>,
+    used: Vec<u32>,
+    made_normals: Vec<[f32; 3]>,
+    vertex_of: Vec<u32>,
+    corner_of: Vec<usize>,
     loop_points: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     triangulator: Triangulator,
     normal_maker: NormalMaker,
-}
-
-/// The values that corners take, ready to be looked up.
-pub(super) struct Values<'a> {
-    /// Source coordinate index of each numbered coordinate.
-    used: &'a [u32],
-    /// Number of each corner's coordinate.
-    numbers: &'a [u32],
-    normals: Normals<'a>,
-    colors: Option<(&'a Take, &'a Attributes<'a>)>,
-    texcoords: Option<(&'a Take, TexCoordMaker<'a>)>,
-}
-
-enum Normals<'a> {
-    None,
-    /// From the file.
-    Given(&'a Take, &'a [f64]),
-    /// One for each corner.
-    Made(&'a [[f32; 3]]),
-}
-
-impl Values<'_> {
-    fn index(&self, take: &Take, corner: usize) -> usize {
-        match take {
-            Take::Nothing | Take::First => 0,
-            Take::Coordinate => self.used[self.numbers[corner] as usize] as usize,
-            Take::Corners(list) => list[corner] as usize,
-        }
-    }
-
-    fn normal(&self, corner: usize) -> Option<[f32; 3]> {
-        match &self.normals {
-            Normals::None => None,
-            Normals::Given(take, list) => {
-                let at = 3 * self.index(take, corner);
-                Some(unit_normal(list.get(at..at + 3)))
-            }
-            Normals::Made(list) => Some(list[corner]),
-        }
-    }
-
-    fn color(&self, corner: usize) -> Option<[f32; 4]> {
-        let (take, attributes) = self.colors.as_ref()?;
-        Some(attributes.colors.rgba_srgb(self.index(take, corner)))
-    }
-
-    fn texcoord(&self, corner: usize) -> Option<[f32; 2]> {
-        let (take, maker) = self.texcoords.as_ref()?;
-        let coordinate = self.used[self.numbers[corner] as usize] as usize;
-        Some(maker.texcoord(self.index(take, corner), coordinate))
-    }
-
-    /// Whether every value follows from the coordinate.
-    fn follow_coordinates(&self) -> bool {
-        let follows = |take: &Take| !matches!(take, Take::Corners(_));
-        let normals = match &self.normals {
-            Normals::None => true,
-            Normals::Given(take, _) => follows(take),
-            Normals::Made(_) => false,
-        };
-        let colors = self.colors.as_ref().is_none_or(|(take, _)| follows(take));
-        normals
-            && colors
-            && self
-                .texcoords
-                .as_ref()
-                .is_none_or(|(take, _)| follows(take))
-    }
-}
-
-/// A given normal at unit length; (0, 0, 1) for one without direction.
-fn unit_normal(given: Option<&[f64]>) -> [f32; 3] {
-    let Some(&[x, y, z]) = given else {
-        return [0.0, 0.0, 1.0];
-    };
-    let length = (x * x + y * y + z * z).sqrt();
-    if !(length > 1e-150 && length < 1e150) {
-        // Squares of such numbers leave the range of f64.
-        let v = DVec3::new(x, y, z);
-        let v = v / v.abs().max_element();
-        return v.normalize_or(DVec3::Z).as_vec3().to_array();
-    }
-    [x, y, z].map(|v| (v / length) as f32 + 0.0)
 }
 
 impl Assembler {
@@ -128,29 +50,26 @@ impl Assembler {
         job: &Job<'_>,
         remarks: &mut Remarks,
     ) -> Option<Mesh> {
-        let used = self.number_coordinates(&mut corners.coordinates, attributes.coordinate_count());
-        if used.is_empty() {
-            return None;
-        }
-        let (origin, positions, bounds) = self.positions(attributes, &used);
-        let group_count = self
-            .welder
-            .weld(bytemuck::cast_slice(&positions), 3, &mut self.groups);
-        let is_plain_list = corners.ends.is_empty() && corners.step == 3;
-        if topology == Topology::Triangles && !is_plain_list {
+        // Scratch is taken out while it is borrowed, and put back.
+        let mut used = std::mem::take(&mut self.used);
+        let mut made = std::mem::take(&mut self.made_normals);
+        let coordinate_count = attributes.coordinate_count();
+        self.number_coordinates(&mut corners.coordinates, coordinate_count, &mut used);
+        let (origin, positions, bounds) = positions(attributes, &used);
+        let words = bytemuck::cast_slice(&positions);
+        let group_count = self.welder.weld(words, 3, &mut self.groups);
+        let is_list = topology != Topology::Triangles || corners.is_triangle_list();
+        if !is_list {
             self.triangulate(&corners, attributes, &used, remarks);
         }
         let clockwise = attributes.ordering == Ordering::Clockwise;
         let wants_normals = topology == Topology::Triangles && job.lit;
         let given = wants_normals && enough(attributes, &corners, &used, remarks);
-        let mut made = Vec::new();
         if wants_normals && !given {
-            let groups = corners
-                .by_position
-                .then_some((&self.groups[..], group_count));
-            made = self
-                .normal_maker
-                .make(&corners, attributes, &used, groups, clockwise);
+            let groups = (&self.groups[..], group_count);
+            let groups = corners.by_position.then_some(groups);
+            let maker = &mut self.normal_maker;
+            maker.make(&corners, attributes, &used, groups, clockwise, &mut made);
         }
         let values = Values {
             used: &used,
@@ -164,7 +83,8 @@ impl Assembler {
             texcoords: match (&corners.texcoords, attributes.texcoords) {
                 (Take::Nothing, _) | (_, None) => None,
                 (take, Some(source)) => {
-                    Some((take, TexCoordMaker::new(attributes, source, &bounds)))
+                    let maker = TexCoordMaker::new(attributes, source, &bounds);
+                    Some((take, maker))
                 }
             },
         };
@@ -178,59 +98,56 @@ impl Assembler {
             indices: Vec::new(),
             pos: attributes.pos,
         };
+        self.corner_of.clear();
         if values.follow_coordinates() && group_count == used.len() {
             // Each coordinate is one vertex; any corner that uses it shows its values.
-            let mut corner_of = vec![0; used.len()];
+            self.corner_of.resize(used.len(), 0);
             for (i, &number) in corners.coordinates.iter().enumerate().rev() {
-                corner_of[number as usize] = i;
+                self.corner_of[number as usize] = i;
             }
-            fill(&mut mesh, &values, &corner_of);
+            values.fill(&mut mesh, &self.corner_of);
             mesh.positions = positions;
-            drop(values);
-            mesh.indices = match topology {
-                Topology::Triangles if !is_plain_list => {
-                    let list = self.triangles.iter().flatten();
-                    list.map(|&c| corners.coordinates[c as usize]).collect()
-                }
-                _ => corners.coordinates,
+            mesh.indices = match is_list {
+                true => std::mem::take(&mut corners.coordinates),
+                false => self.triangle_indices(&corners.coordinates),
             };
         } else {
-            let vertex_of = self.weld(&values, &corners.coordinates);
-            let mut corner_of = Vec::new();
-            for (i, &vertex) in vertex_of.iter().enumerate() {
-                if vertex as usize == corner_of.len() {
-                    corner_of.push(i);
+            self.weld(&values);
+            for (i, &vertex) in self.vertex_of.iter().enumerate() {
+                if vertex as usize == self.corner_of.len() {
+                    self.corner_of.push(i);
                 }
             }
-            fill(&mut mesh, &values, &corner_of);
+            values.fill(&mut mesh, &self.corner_of);
             let position = |&corner: &usize| positions[corners.coordinates[corner] as usize];
-            mesh.positions = corner_of.iter().map(position).collect();
-            drop(values);
-            mesh.indices = match topology {
-                Topology::Triangles if !is_plain_list => {
-                    let list = self.triangles.iter().flatten();
-                    list.map(|&c| vertex_of[c as usize]).collect()
-                }
-                _ => vertex_of,
+            mesh.positions = self.corner_of.iter().map(position).collect();
+            mesh.indices = match is_list {
+                true => self.vertex_of.clone(),
+                false => self.triangle_indices(&self.vertex_of),
             };
         }
+        self.used = used;
+        self.made_normals = made;
         if topology == Topology::Triangles {
             drop_collapsed(&mut mesh);
-            turn(
-                &mut mesh,
-                clockwise,
-                given && attributes.ordering == Ordering::Unknown,
-            );
+            let by_normals = given && attributes.ordering == Ordering::Unknown;
+            turn(&mut mesh, clockwise, by_normals);
         }
         (!mesh.indices.is_empty()).then_some(mesh)
     }
 
-    /// Replaces coordinate indices by numbers in order of first use; returns the indices used.
-    fn number_coordinates(&mut self, indices: &mut [u32], count: usize) -> Vec<u32> {
+    /// The triangles' corners, each replaced by what `map` has for it.
+    fn triangle_indices(&self, map: &[u32]) -> Vec<u32> {
+        let corners = self.triangles.as_flattened();
+        corners.iter().map(|&c| map[c as usize]).collect()
+    }
+
+    /// Replaces coordinate indices by numbers in order of first use; `used` gets the indices.
+    fn number_coordinates(&mut self, indices: &mut [u32], count: usize, used: &mut Vec<u32>) {
         if self.numbers.len() < count {
             self.numbers.resize(count, UNUSED);
         }
-        let mut used = Vec::new();
+        used.clear();
         for index in indices {
             let number = &mut self.numbers[*index as usize];
             if *number == UNUSED {
@@ -239,24 +156,9 @@ impl Assembler {
             }
             *index = *number;
         }
-        for &index in &used {
+        for &index in used.iter() {
             self.numbers[index as usize] = UNUSED;
         }
-        used
-    }
-
-    /// The local origin, the positions relative to it, and the box around them.
-    fn positions(&self, attributes: &Attributes<'_>, used: &[u32]) -> (DVec3, Vec<[f32; 3]>, Aabb) {
-        let at = |&i: &u32| coordinate(attributes, i);
-        let mut bounds = Aabb::EMPTY;
-        used.iter().for_each(|i| bounds.include(at(i)));
-        let origin = local_origin(&bounds);
-        // Adding zero turns -0 into +0, so that equal positions have equal bits.
-        let store = |p: DVec3| {
-            let limit = DVec3::splat(f64::from(f32::MAX));
-            ((p - origin).clamp(-limit, limit).as_vec3() + Vec3::ZERO).to_array()
-        };
-        (origin, used.iter().map(|i| store(at(i))).collect(), bounds)
     }
 
     fn triangulate(
@@ -268,24 +170,20 @@ impl Assembler {
     ) {
         self.triangles.clear();
         for range in corners.faces() {
+            let first = range.start as u32;
             if range.len() == 3 {
-                let first = range.start as u32;
                 self.triangles.push([first, first + 1, first + 2]);
                 continue;
             }
             self.loop_points.clear();
-            let numbers = &corners.coordinates[range.clone()];
-            self.loop_points.extend(
-                numbers
-                    .iter()
-                    .map(|&n| coordinate(attributes, used[n as usize])),
-            );
+            let at = |&n: &u32| coordinate(attributes, used[n as usize]);
+            let numbers = &corners.coordinates[range];
+            self.loop_points.extend(numbers.iter().map(at));
             let begin = self.triangles.len();
-            let outcome = self
-                .triangulator
-                .triangulate(&self.loop_points, &mut self.triangles);
+            let points = &self.loop_points;
+            let outcome = self.triangulator.triangulate(points, &mut self.triangles);
             for triangle in &mut self.triangles[begin..] {
-                *triangle = triangle.map(|i| i + range.start as u32);
+                *triangle = triangle.map(|i| i + first);
             }
             match outcome {
                 Outcome::Triangulated | Outcome::Degenerate => {}
@@ -305,27 +203,35 @@ impl Assembler {
         }
     }
 
-    /// The vertex of each corner: corners with equal values share one.
-    fn weld(&mut self, values: &Values<'_>, numbers: &[u32]) -> Vec<u32> {
-        use geometry::weld::key_bits;
+    /// Finds the vertex of each corner: corners with equal values share one.
+    fn weld(&mut self, values: &Values<'_>) {
         self.words.clear();
         let mut stride = 0;
-        for (corner, &number) in numbers.iter().enumerate() {
+        for (corner, &number) in values.numbers.iter().enumerate() {
             self.words.push(self.groups[number as usize]);
-            self.words
-                .extend(values.normal(corner).into_iter().flatten().map(key_bits));
-            self.words
-                .extend(values.texcoord(corner).into_iter().flatten().map(key_bits));
-            self.words
-                .extend(values.color(corner).into_iter().flatten().map(key_bits));
+            values.push_key(corner, &mut self.words);
             if corner == 0 {
                 stride = self.words.len();
+                self.words.reserve(stride * values.numbers.len());
             }
         }
-        let mut vertex_of = Vec::new();
-        self.welder.weld(&self.words, stride, &mut vertex_of);
-        vertex_of
+        self.welder.weld(&self.words, stride, &mut self.vertex_of);
     }
+}
+
+/// The local origin, the positions relative to it, and the box around them.
+fn positions(attributes: &Attributes<'_>, used: &[u32]) -> (DVec3, Vec<[f32; 3]>, Aabb) {
+    let at = |&i: &u32| coordinate(attributes, i);
+    let mut bounds = Aabb::EMPTY;
+    used.iter().for_each(|i| bounds.include(at(i)));
+    let origin = local_origin(&bounds);
+    // Adding zero turns -0 into +0, so that equal positions have equal bits.
+    let store = |p: DVec3| {
+        let limit = DVec3::splat(f64::from(f32::MAX));
+        ((p - origin).clamp(-limit, limit).as_vec3() + Vec3::ZERO).to_array()
+    };
+    let positions = used.iter().map(|i| store(at(i))).collect();
+    (origin, positions, bounds)
 }
 
 /// A coordinate of the source, which is known to exist.
@@ -336,16 +242,6 @@ pub(super) fn coordinate(attributes: &Attributes<'_>, index: u32) -> DVec3 {
         index as usize,
     )
     .unwrap_or(DVec3::ZERO)
-}
-
-/// Fills all but positions and indices: vertex `i` has the values of corner `corner_of[i]`.
-fn fill(mesh: &mut Mesh, values: &Values<'_>, corner_of: &[usize]) {
-    mesh.normals = corner_of.iter().map_while(|&c| values.normal(c)).collect();
-    mesh.texcoords = corner_of
-        .iter()
-        .map_while(|&c| values.texcoord(c))
-        .collect();
-    mesh.colors_srgb = corner_of.iter().map_while(|&c| values.color(c)).collect();
 }
 
 /// Whether the file gives a normal for every corner; if not they are all made, as Coin does.

@@ -41,6 +41,11 @@ pub struct Corners {
 }
 
 impl Corners {
+    /// Whether every three corners are a face.
+    pub fn is_triangle_list(&self) -> bool {
+        self.ends.is_empty() && self.step == 3
+    }
+
     /// The corner ranges of all faces.
     pub fn faces(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
         let by_step = self.ends.is_empty();
@@ -392,7 +397,11 @@ fn face_set(attributes: &Attributes<'_>, remarks: &mut Remarks) -> Corners {
 /// Adds the triangles of a strip whose corners are the `spots`; every other one is turned.
 fn strip(collector: &mut Collector<'_>, spots: &[Spot], face: &mut usize) {
     for (i, window) in spots.windows(3).enumerate() {
-        let order = if i % 2 == 0 { [0, 1, 2] } else { [1, 0, 2] };
+        let order = if i.is_multiple_of(2) {
+            [0, 1, 2]
+        } else {
+            [1, 0, 2]
+        };
         for k in order {
             collector.push(&Spot {
                 face: *face,

@@ -14,6 +14,7 @@ mod normals;
 mod outline;
 mod primitives;
 mod texcoords;
+mod values;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -53,8 +54,6 @@ struct MeshKey {
 pub struct Made {
     /// The mesh.
     pub mesh: MeshId,
-    /// It carries colours.
-    pub colored: bool,
     /// It carries normals.
     pub lit: bool,
     /// It carries texture coordinates.
@@ -132,7 +131,6 @@ impl ShapeMaker {
             self.make(job, &attributes, remarks).map(|mesh| {
                 self.bytes += 4 * mesh.indices.len() + 48 * mesh.positions.len();
                 Made {
-                    colored: !mesh.colors_srgb.is_empty(),
                     lit: !mesh.normals.is_empty(),
                     textured: !mesh.texcoords.is_empty(),
                     mesh: keep(mesh),
@@ -151,7 +149,6 @@ impl ShapeMaker {
             return *known;
         }
         let made = measure::measure(job, &attributes).map(|measure| Made {
-            colored: !attributes.colors.is_uniform(),
             lit: measure.topology == Topology::Triangles,
             textured: job.state.texture.is_some(),
             mesh: keep(measure),

@@ -17,7 +17,7 @@ pub struct NormalMaker {
 }
 
 impl NormalMaker {
-    /// One normal for each corner. Corners meet where their coordinate index is the same, or,
+    /// Fills `normals` with one for each corner. Corners meet where their coordinate index is the same, or,
     /// with `groups`, where their positions are (`groups` gives the group of each numbered
     /// coordinate).
     pub fn make(
@@ -27,7 +27,8 @@ impl NormalMaker {
         used: &[u32],
         groups: Option<(&[u32], usize)>,
         clockwise: bool,
-    ) -> Vec<[f32; 3]> {
+        normals: &mut Vec<[f32; 3]>,
+    ) {
         self.face_normals.clear();
         self.corner_face.clear();
         for range in corners.faces() {
@@ -67,9 +68,6 @@ impl NormalMaker {
         } else {
             attributes.crease_angle_rad
         };
-        let mut normals = Vec::new();
-        self.creases
-            .compute(&joined, crease_angle_rad, &mut normals);
-        normals
+        self.creases.compute(&joined, crease_angle_rad, normals);
     }
 }

@@ -106,7 +106,7 @@ impl Maker<'_> {
 fn around(i: u32, count: u32) -> DVec2 {
     // Quarter turns are exact, so that boxes of round shapes are.
     let quarter = count / 4;
-    match (i % count, i % quarter == 0) {
+    match (i % count, i.is_multiple_of(quarter)) {
         (k, true) => [
             DVec2::new(0.0, -1.0),
             DVec2::new(-1.0, 0.0),
