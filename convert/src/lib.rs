@@ -1,1 +1,102 @@
-//! placeholder
+//! Open Inventor to glTF 2.0.
+//!
+//! [`Scene`](scenegraph::scene::Scene) in, `.glb` or `.gltf` out. Two passes: a [`Plan`] decides
+//! everything and measures it, then the output is streamed from the scene's own arrays, so that
+//! memory holds little more than the scene and the JSON text.
+//!
+//! What is promised:
+//!
+//! - the same scene gives the same bytes, with no time or machine in them;
+//! - the output is free of errors and warnings of the Khronos validator;
+//! - transforms are f64 to the last digit, and a mesh's origin goes into its node;
+//! - no name is lost and none is invented;
+//! - what glTF cannot carry is listed in the [`Report`], and Inventor's own values are in
+//!   `extras.iv`, under the names of Inventor's fields.
+//!
+//! No question of Inventor's is asked here: defaults, inheritance and bindings are resolved in the
+//! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
+//! only.
+
+mod binary;
+mod bounds;
+mod camera;
+mod color;
+mod container;
+mod error;
+mod extras;
+mod file;
+mod frame;
+mod hierarchy;
+mod image;
+mod json;
+mod layout;
+mod light;
+mod loss;
+mod material;
+mod mesh;
+mod options;
+mod plan;
+mod remarks;
+mod report;
+mod sound;
+mod texture;
+
+use std::io::Write;
+
+use scenegraph::scene::Scene;
+
+pub use error::Error;
+pub use file::write_file;
+pub use loss::{Effect, Loss, LossKind, losses_markdown};
+pub use options::{Container, Options};
+pub use plan::Plan;
+pub use report::{Counts, Report, Warning};
+pub use texture::TextureLoader;
+
+/// Writes a scene as `.glb`, whatever container the options name. Wants a buffered stream.
+///
+/// # Errors
+///
+/// [`Error::GlbTooLarge`] before anything is written, [`Error::Scene`] for a scene that breaks its
+/// guarantees, [`Error::Io`] from the stream.
+pub fn write_glb(
+    scene: &Scene,
+    options: &Options,
+    textures: &dyn TextureLoader,
+    out: &mut dyn Write,
+) -> Result<Report, Error> {
+    let options = Options {
+        container: Container::Glb,
+        ..options.clone()
+    };
+    Plan::new(scene, &options, textures)?.write_glb(out)
+}
+
+/// Writes a scene as `.gltf` text and one `.bin`, whatever container the options name. `bin_uri`
+/// goes into the text as it is. Wants buffered streams.
+///
+/// # Errors
+///
+/// [`Error::SeveralBins`] if one `.bin` does not hold it all, [`Error::BinTooLarge`] if no number
+/// of them would, [`Error::Scene`] for a scene that breaks its guarantees, [`Error::Io`] from the
+/// streams.
+pub fn write_gltf(
+    scene: &Scene,
+    options: &Options,
+    textures: &dyn TextureLoader,
+    bin_uri: &str,
+    json_out: &mut dyn Write,
+    bin_out: &mut dyn Write,
+) -> Result<Report, Error> {
+    let options = Options {
+        container: Container::GltfBin,
+        ..options.clone()
+    };
+    let plan = Plan::new(scene, &options, textures)?;
+    match plan.layout.buffers.len() {
+        0 => {}
+        1 => plan.write_buffer(0, bin_out)?,
+        count => return Err(Error::SeveralBins { count }),
+    }
+    plan.write_gltf_text(&[bin_uri.to_owned()], json_out)
+}

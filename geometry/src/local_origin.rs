@@ -33,8 +33,8 @@ pub fn local_origin(bounds: &Aabb) -> DVec3 {
     if bounds.is_empty() || !bounds.min.is_finite() || !bounds.max.is_finite() {
         return DVec3::ZERO;
     }
-    // Halved before subtracting: the full extent may overflow.
-    let half_extent = (bounds.max * 0.5 - bounds.min * 0.5).max_element();
+    // Infinite if it overflows; then everything fits directly.
+    let half_extent = bounds.size().max_element() * 0.5;
     let center = bounds.center();
     DVec3::new(
         axis_origin(bounds.min.x, bounds.max.x, center.x, half_extent),

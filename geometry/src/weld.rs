@@ -52,7 +52,6 @@ impl Welder {
         // The common widths as constants: comparing and hashing then need no loop.
         match stride {
             3 => self.weld_arrays::<3>(words, remap),
-            4 => self.weld_arrays::<4>(words, remap),
             6 => self.weld_arrays::<6>(words, remap),
             8 => self.weld_arrays::<8>(words, remap),
             _ => self.weld_rows(
@@ -305,11 +304,12 @@ mod tests {
     #[test]
     fn structured_rows_do_not_collide() {
         // Grids, small integers, single bits: what weak hashes cluster on.
-        let patterns: [fn(u32) -> [u32; 3]; 4] = [
+        let patterns: [fn(u32) -> [u32; 3]; 5] = [
             |i| [(i % 64) as f32, (i / 64 % 64) as f32, (i / 4096) as f32].map(key_bits),
             |i| [i, 0, 0],
             |i| [0, 0, i << 14],
             |i| [i.rotate_left(20), i, i],
+            |i| [i << 9, 0, i],
         ];
         for (number, pattern) in patterns.iter().enumerate() {
             let count = 1 << 17;

@@ -46,9 +46,10 @@ pub struct Corners<'a> {
 }
 
 impl Corners<'_> {
-    /// The number of corners.
+    /// The number of corners, at most `u32::MAX`.
     fn len(&self) -> usize {
-        self.corner_face.len().min(self.corner_group.len())
+        let len = self.corner_face.len().min(self.corner_group.len());
+        len.min(u32::MAX as usize)
     }
 
     fn normal_of_face(&self, face: u32) -> DVec3 {
@@ -63,7 +64,7 @@ impl Corners<'_> {
 /// serve many meshes.
 #[derive(Default)]
 pub struct CreaseNormals {
-    /// `corners[starts[g]..starts[g + 1]]` are the corners of group `g`.
+    /// `corners[starts[i]..starts[i + 1]]` are the corners of one group.
     starts: Vec<u32>,
     corners: Vec<u32>,
     group: Group,
@@ -112,15 +113,25 @@ impl CreaseNormals {
         }
     }
 
-    /// A counting sort; stable, so that the corners of a group stay in order.
+    /// Fills in `starts` and `corners`; the corners of a group stay in order.
     fn sort_corners_by_group(&mut self, faces: &Corners) {
+        /// Groups per corner up to which it pays to have a counter for each group. Beyond it,
+        /// a part that uses little of a large coordinate list would pay for all of it.
+        const DENSE_GROUPS: usize = 4;
         let groups = &faces.corner_group[..faces.len()];
-        // No more groups than the largest index asks for, whatever count is claimed.
-        let used = groups.iter().max().map_or(0, |&g| g as usize + 1);
-        let group_count = faces.group_count.min(used);
         self.starts.clear();
-        self.starts.resize(group_count + 1, 0);
+        self.corners.clear();
+        if faces.group_count <= groups.len().saturating_mul(DENSE_GROUPS) {
+            self.count_groups(groups, faces.group_count);
+        } else {
+            self.sort_groups(groups, faces.group_count);
+        }
+    }
+
+    /// A counting sort, for group numbers that are mostly used.
+    fn count_groups(&mut self, groups: &[u32], group_count: usize) {
         let in_range = |g: u32| (g as usize) < group_count;
+        self.starts.resize(group_count + 1, 0);
         for &g in groups.iter().filter(|&&g| in_range(g)) {
             self.starts[g as usize] += 1;
         }
@@ -129,7 +140,6 @@ impl CreaseNormals {
             end += *start;
             *start = end;
         }
-        self.corners.clear();
         self.corners.resize(end as usize, 0);
         // Backwards, each count moves from its group's end to its start.
         for (corner, &g) in groups
@@ -140,6 +150,22 @@ impl CreaseNormals {
         {
             self.starts[g as usize] -= 1;
             self.corners[self.starts[g as usize] as usize] = corner as u32;
+        }
+    }
+
+    /// A comparison sort, for sparse group numbers; groups without corners are left out.
+    fn sort_groups(&mut self, groups: &[u32], group_count: usize) {
+        let group = |corner: u32| groups[corner as usize];
+        let all = 0..groups.len() as u32;
+        self.corners
+            .extend(all.filter(|&corner| (group(corner) as usize) < group_count));
+        self.corners
+            .sort_unstable_by_key(|&corner| (group(corner), corner));
+        self.starts.push(0);
+        let mut end = 0;
+        for members in self.corners.chunk_by(|&a, &b| group(a) == group(b)) {
+            end += members.len() as u32;
+            self.starts.push(end);
         }
     }
 }

@@ -131,6 +131,12 @@ fn the_crease_angle_itself_stays_sharp() {
     // dot == cos exactly: 0 > cos(pi/2) = 6e-17 is false.
     let flat = crease_normals(&[DVec3::X, DVec3::Y], &[0, 1], &[0, 0], 1, FRAC_PI_2);
     assert_eq!(flat, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    // The cosine of the angle bit by bit, and its neighbour above.
+    for (cosine, joined) in [(0.5_f64.cos(), false), (0.5_f64.cos().next_up(), true)] {
+        let other = DVec3::new(cosine, (1.0 - cosine * cosine).sqrt(), 0.0);
+        let n = crease_normals(&[DVec3::X, other], &[0, 1], &[0, 0], 1, 0.5);
+        assert_eq!(n[0] != [1.0, 0.0, 0.0], joined);
+    }
     let nan = crease_normals(&[DVec3::X, DVec3::Y], &[0, 1], &[0, 0], 1, f64::NAN);
     assert_eq!(nan, flat);
 }
@@ -159,6 +165,22 @@ fn random_fans() {
 }
 
 #[test]
+fn sparse_groups_are_as_good_as_dense_ones() {
+    let face_normals = [DVec3::X, DVec3::Y, DVec3::Z];
+    let corner_face = [0, 1, 2, 0, 1, 2, 2];
+    let normals = |groups: [u32; 7], group_count| {
+        crease_normals(&face_normals, &corner_face, &groups, group_count, PI)
+    };
+    let dense = normals([2, 2, 0, 0, 0, 1, 3], 3);
+    let sparse = normals(
+        [4_000_000_000, 4_000_000_000, 9, 9, 9, 10, u32::MAX],
+        u32::MAX as usize,
+    );
+    assert_eq!(sparse, dense);
+    assert!(dense[0] == dense[1] && dense[2] == dense[3] && dense[6] == [0.0, 0.0, 1.0]);
+}
+
+#[test]
 fn bad_indices_are_harmless() {
     let actual = crease_normals(
         &[DVec3::X, DVec3::Y],
@@ -173,15 +195,35 @@ fn bad_indices_are_harmless() {
 }
 
 #[test]
+fn equal_normals_keep_their_weight_in_a_crowd() {
+    let mut normals = cone(MAX_DISTINCT_NORMALS as u32 - 1);
+    for i in 0..100 {
+        normals.insert(i * 4, DVec3::X);
+    }
+    let sum: DVec3 = normals.iter().sum();
+    let faces: Vec<u32> = (0..normals.len() as u32).collect();
+    let actual = crease_normals(&normals, &faces, &vec![0; faces.len()], 1, 2.5);
+    for n in actual {
+        let expected = sum.normalize().as_vec3();
+        assert!(
+            glam::Vec3::from_array(n).abs_diff_eq(expected, 1e-6),
+            "{n:?} {expected}"
+        );
+    }
+}
+
+/// The face normals of a cone with a tip of 90 degrees.
+fn cone(count: u32) -> Vec<DVec3> {
+    (0..count)
+        .map(|i| {
+            let (sin, cos) = (2.0 * PI * f64::from(i) / f64::from(count)).sin_cos();
+            DVec3::new(cos, sin, 1.0).normalize()
+        })
+        .collect()
+}
+
+#[test]
 fn crowded_vertices() {
-    let cone = |count: u32| -> Vec<DVec3> {
-        (0..count)
-            .map(|i| {
-                let (sin, cos) = (2.0 * PI * f64::from(i) / f64::from(count)).sin_cos();
-                DVec3::new(cos, sin, 1.0).normalize()
-            })
-            .collect()
-    };
     let limit = MAX_DISTINCT_NORMALS as u32;
     let axis = [0.0, 0.0, 1.0];
     // Number of faces, how often each occurs, crease angle, and whether the tip is smooth.

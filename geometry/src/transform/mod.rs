@@ -62,7 +62,8 @@ impl Decomposition {
 /// A rotation matrix made of a normalised quaternion has columns orthogonal within about
 /// `gamma(12)`, and each product of two matrices adds `gamma(3)`; so this covers a chain of
 /// more than sixteen rotated and scaled nodes even if every rounding errs the same way.
-/// Matrices that went through `f32` need a wider bound: see [`decompose_within`].
+/// Matrices that went through `f32` need a wider bound, see [`decompose_within`]: rounding
+/// each element changes a column's direction by up to 2^-24, so cosines reach 2^-23.
 pub const ORTHOGONAL_COSINE: f64 = gamma(64);
 
 /// Splits a matrix into translation, rotation and scale; see [`decompose_within`], here with
@@ -84,7 +85,8 @@ pub fn decompose(world_from_local: &DAffine3) -> Decomposition {
 /// - A regular diagonal matrix with at most one negative, or three negative, elements is kept
 ///   bit for bit.
 /// - A scale factor that a rotation has left within `max_cosine` of 1 becomes 1.
-/// - Singular matrices have zero scale factors. Magnitudes may span the range of `f64`.
+/// - Singular matrices have scale factors that are zero, or rounding noise if they shear.
+///   Magnitudes may span the range of `f64`, short of its last factor of two.
 /// - A linear part with a NaN or an infinity is replaced by the identity; the translation is
 ///   always passed on as it is.
 #[must_use]

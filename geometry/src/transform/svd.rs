@@ -26,10 +26,12 @@ const CONVERGED_COSINE: f64 = gamma(11);
 
 /// A rotated column shorter than this part of what it was computed from consists of
 /// rounding errors (four for the factors' sine and cosine, two here; doubled) and is zero.
+/// Without this, sweep after sweep would shrink it until it has no direction.
 const CANCELLED: f64 = gamma(12);
 
 /// Decomposes a finite matrix of any magnitude and rank.
 pub(super) fn one_sided_jacobi(m: &DMat3) -> Svd {
+    // Scaled to near 1, away from overflow and from numbers with fewer digits.
     let columns = [m.x_axis, m.y_axis, m.z_axis];
     let max = columns
         .map(|c| c.abs().max_element())
@@ -90,14 +92,18 @@ impl Rotation {
     }
 
     fn apply(&self, columns: &mut [DVec3; 3], p: usize, q: usize, zero_cancelled: bool) {
-        let (old_p, old_q) = (columns[p], columns[q]);
-        let difference = |a: DVec3, b: DVec3| {
-            let d = a - b;
-            let scale = a.abs().max(b.abs()).max_element();
-            let cancelled = zero_cancelled && d.abs().max_element() <= CANCELLED * scale;
-            if cancelled { DVec3::ZERO } else { d }
+        let sum = |a: DVec3, b: DVec3| {
+            let sum = a + b;
+            let largest = a.abs().max(b.abs()).max_element();
+            let is_noise = sum.abs().max_element() <= CANCELLED * largest;
+            if zero_cancelled && is_noise {
+                DVec3::ZERO
+            } else {
+                sum
+            }
         };
-        columns[p] = difference(old_p * self.cos, old_q * self.sin);
-        columns[q] = difference(old_q * self.cos, old_p * -self.sin);
+        let (old_p, old_q) = (columns[p], columns[q]);
+        columns[p] = sum(old_p * self.cos, old_q * -self.sin);
+        columns[q] = sum(old_p * self.sin, old_q * self.cos);
     }
 }

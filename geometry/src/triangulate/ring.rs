@@ -98,13 +98,14 @@ impl Ring {
     /// How many times the direction of travel goes round counter-clockwise: 1 for a simple
     /// counter-clockwise polygon, 2 for a pentagram, 0 for a figure of eight.
     ///
-    /// Counted exactly, as the turns that sweep over the direction of the x axis.
+    /// Counted exactly, as the turns that sweep over the direction just left of the x axis;
+    /// no turn is a half turn.
     pub(super) fn turning_number(&self) -> i64 {
         let n = self.len();
-        // Whether the direction from one point to the next is in [0, pi).
+        // Whether the direction from one point to the next is strictly between 0 and pi.
         let is_upward = |i: usize| {
             let (p, q) = (self.points[i % n], self.points[(i + 1) % n]);
-            p.y < q.y || (p.y == q.y && p.x < q.x)
+            p.y < q.y
         };
         let mut upward_before = is_upward(n - 1);
         let mut count = 0;

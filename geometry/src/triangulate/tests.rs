@@ -170,6 +170,75 @@ fn slivers_are_kept() {
     }
 }
 
+#[test]
+fn flat_slivers_turn_the_right_way() {
+    // Two chains of whole numbers one unit apart on a steep line: an area that products of
+    // f64 cannot show, not even its sign.
+    let mut rng = Rng(12);
+    for round in 0..200 {
+        let k = 3 + rng.below(20) as usize;
+        let lower: Vec<[i64; 2]> = (0..k)
+            .map(|i| {
+                [
+                    i as i64 * (1 << 30) + rng.below(1 << 30) as i64,
+                    rng.below(1 << 52) as i64,
+                ]
+            })
+            .collect();
+        let mut whole = lower.clone();
+        whole.extend(lower.iter().rev().map(|&[x, y]| [x, y + 1]));
+        if round % 2 == 1 {
+            whole.reverse();
+        }
+        let sign = if round % 2 == 1 { -1 } else { 1 };
+        let points: Vec<DVec3> = whole
+            .iter()
+            .map(|p| DVec3::new(p[0] as f64, p[1] as f64, 0.0))
+            .collect();
+        let (outcome, triangles) = triangulate(&points);
+        assert_eq!(outcome, Outcome::Triangulated, "{points:?}");
+        assert_eq!(triangles.len(), points.len() - 2);
+        for t in triangles {
+            let [a, b, c] = t.map(|i| whole[i as usize].map(i128::from));
+            let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            assert!(area * sign > 0, "{t:?} {points:?}");
+        }
+    }
+}
+
+#[test]
+fn repetitions_and_spikes_leave_a_convex_fan() {
+    let octagon: Vec<DVec3> = star(8, |_| 1.0);
+    let out_and_back = |p: DVec3, tip: DVec3| vec![p, tip, p];
+    for extra in [
+        vec![octagon[0], octagon[0]],
+        out_and_back(octagon[0], octagon[0] * 2.0),
+        out_and_back(octagon[0], DVec3::ZERO),
+        // A spike with a kink, and one over a neighbouring edge.
+        vec![
+            octagon[0],
+            octagon[0] * 2.0,
+            DVec3::Y * 5.0,
+            octagon[0] * 2.0,
+            octagon[0],
+        ],
+        out_and_back(octagon[0], octagon[1]),
+    ] {
+        let mut points = extra;
+        points.extend(&octagon[1..]);
+        for _ in 0..points.len() {
+            points.rotate_left(1);
+            let (outcome, triangles) = triangulate(&points);
+            assert_eq!(outcome, Outcome::Triangulated, "{points:?}");
+            assert_eq!(check_cover(&points, &triangles), 6);
+            assert!(
+                triangles.iter().all(|t| t[0] == triangles[0][0]),
+                "{triangles:?}"
+            );
+        }
+    }
+}
+
 /// A polygon with a corner in each of `n` directions at distances given by `radius`.
 fn star(n: usize, mut radius: impl FnMut(usize) -> f64) -> Vec<DVec3> {
     (0..n)

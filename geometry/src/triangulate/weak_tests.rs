@@ -182,3 +182,31 @@ fn bridged_regions_are_covered() {
     }
     assert!(hole_count > 100, "{hole_count}");
 }
+
+#[test]
+fn a_hole_may_touch_a_corner() {
+    // The hole starts in the corner (0, 0) and crosses the diagonal that would cut it off; the
+    // bridge to it is elsewhere.
+    let loop_points = [
+        (0, 0),
+        (2, 0),
+        (10, 0),
+        (10, 10),
+        (6, 4),
+        (0, 0),
+        (4, 6),
+        (6, 4),
+        (10, 10),
+        (0, 10),
+        (0, 2),
+    ];
+    for start in 0..loop_points.len() {
+        let mut points = loop_points.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
+        points.rotate_left(start);
+        let mut out = Vec::new();
+        let outcome = Triangulator::new().triangulate(&points, &mut out);
+        assert_eq!(outcome, Outcome::Triangulated, "{points:?}");
+        // Two less than usual: the loop passes (0, 0) twice, which parts the polygon in two.
+        assert_eq!(check_cover(&points, &out), points.len() - 4);
+    }
+}

@@ -3,10 +3,11 @@
 use iv_parser::{Atom, Child, FieldId, Item, NodeId as TreeId, Severity, Span, Value, text_of};
 
 use super::names::display_name;
+use super::upgrade::OldValue;
 use super::value::Reader;
 use super::{File, upgrade};
-use crate::graph::{FieldEntry, Kind, Node, NodeId};
-use crate::registry::{Class, ClassSpec};
+use crate::graph::{FieldEntry, FieldValue, Kind, Node, NodeId};
+use crate::registry::{Class, ClassSpec, FieldSpec};
 
 /// Words that describe an extension node to readers that do not know it; in nodes that are known
 /// they say nothing new.
@@ -17,16 +18,21 @@ impl<'a> File<'_, '_, 'a, '_> {
     pub(super) fn nodes(&mut self) {
         let count = self.tree.node_count();
         self.builder.nodes.reserve(count);
+        let mut splits = Vec::new();
         for i in 0..count as u32 {
-            let node = self.node(TreeId(i));
+            let mut old = Vec::new();
+            let node = self.node(TreeId(i), &mut old);
             self.builder.nodes.push(node);
+            if !old.is_empty() {
+                splits.push((NodeId(self.base + i), old));
+            }
         }
-        for i in 0..count as u32 {
-            upgrade::replace(self, NodeId(self.base + i));
+        for (id, old) in splits {
+            upgrade::split(self, id, &old);
         }
     }
 
-    fn node(&mut self, id: TreeId) -> Node {
+    fn node(&mut self, id: TreeId, old: &mut Vec<OldValue>) -> Node {
         let tree = self.tree;
         let source = tree.node(id);
         let start = source.span.start as usize;
@@ -43,11 +49,14 @@ impl<'a> File<'_, '_, 'a, '_> {
         match known.or_else(|| self.class_from_description(id)) {
             Some(class) => {
                 node.kind = Kind::Known(class);
-                self.known(id, class, &mut node);
-                upgrade::adjust(&mut node, tree.header);
+                self.known(id, class, &mut node, old);
+                let header = tree.header;
+                if header.is_older_than(2, 1) {
+                    upgrade::upgrade(&mut node, old, header.version);
+                }
                 self.note_include(id, &node);
             }
-            None if source.class.is_empty() => self.known(id, Class::Group, &mut node),
+            None if source.class.is_empty() => self.known(id, Class::Group, &mut node, old),
             None => {
                 node.kind =
                     Kind::Unknown(text_of(&source.class[..source.class.len().min(200)]).into());
@@ -78,7 +87,7 @@ impl<'a> File<'_, '_, 'a, '_> {
         })
     }
 
-    fn known(&mut self, id: TreeId, class: Class, node: &mut Node) {
+    fn known(&mut self, id: TreeId, class: Class, node: &mut Node, old: &mut Vec<OldValue>) {
         let tree = self.tree;
         let spec = class.spec();
         let mut strays = 0;
@@ -89,7 +98,7 @@ impl<'a> File<'_, '_, 'a, '_> {
                     Some(_) => strays += 1,
                     None => {}
                 },
-                Item::Field(field) => self.field(class, spec, field, node),
+                Item::Field(field) => self.field(spec, field, node, old),
             }
         }
         if strays > 0 {
@@ -103,48 +112,74 @@ impl<'a> File<'_, '_, 'a, '_> {
         }
     }
 
-    fn field(&mut self, class: Class, spec: &'static ClassSpec, id: FieldId, node: &mut Node) {
+    fn field(
+        &mut self,
+        spec: &'static ClassSpec,
+        id: FieldId,
+        node: &mut Node,
+        old: &mut Vec<OldValue>,
+    ) {
         let tree = self.tree;
         let field = tree.field(id);
-        let Some((index, field_spec)) = spec.field(field.name) else {
-            return self.unknown_field(class, id, node);
-        };
-        let subject = || format!("`{}.{}`", spec.name, field_spec.name);
-        let mut value = None;
-        if !matches!(field.value, Value::Missing) {
-            // The handles are looked up first: the reader borrows the problems.
-            let mut handles = self.handles(&field.value).into_iter();
-            let mut reader = Reader {
-                tree,
-                subject: &subject,
-                node: &mut |_| handles.next().flatten(),
-                problems: self.problems,
-            };
-            value = reader.read(&field.value, field_spec, field.span);
+        if tree.header.is_older_than(2, 1)
+            && let Some(old_spec) = spec.old_field(field.name, tree.header.version)
+        {
+            let value = self.value(spec, old_spec, id);
+            old.extend(value.map(|value| OldValue {
+                spec: old_spec,
+                value,
+            }));
+            return;
         }
+        let Some((index, field_spec)) = spec.field(field.name) else {
+            return self.unknown_field(spec, id, node);
+        };
+        let value = self.value(spec, field_spec, id);
         if field.connection.is_some() && value.is_none() {
             self.problem(
                 Severity::Warning,
                 "connection",
-                format!("{} takes its value from a connection", subject()),
+                format!(
+                    "`{}.{}` takes its value from a connection",
+                    spec.name, field_spec.name
+                ),
                 "connections are not evaluated; the field keeps its default",
                 field.span,
             );
         }
-        let ignored_default = || FieldEntry {
-            index: index as u16,
-            ignored: true,
-            value: super::read_default(field_spec),
+        let value = match value {
+            None if field.ignored => super::read_default(field_spec),
+            None => return,
+            Some(value) => value,
         };
-        match value {
-            Some(value) => node.fields.push(FieldEntry {
-                index: index as u16,
-                ignored: field.ignored,
-                value,
-            }),
-            None if field.ignored => node.fields.push(ignored_default()),
-            None => {}
+        node.fields.push(FieldEntry {
+            index: index as u16,
+            ignored: field.ignored,
+            value,
+        });
+    }
+
+    /// The value written for a field, if it can be used.
+    fn value(
+        &mut self,
+        spec: &ClassSpec,
+        field_spec: &FieldSpec,
+        id: FieldId,
+    ) -> Option<FieldValue> {
+        let tree = self.tree;
+        let field = tree.field(id);
+        if matches!(field.value, Value::Missing) {
+            return None;
         }
+        // The handles are looked up first: the reader borrows the problems.
+        let mut handles = self.handles(&field.value).into_iter();
+        let mut reader = Reader {
+            tree,
+            subject: &|| format!("`{}.{}`", spec.name, field_spec.name),
+            node: &mut |_| handles.next().flatten(),
+            problems: self.problems,
+        };
+        reader.read(&field.value, field_spec, field.span)
     }
 
     /// The handles of all nodes that stand in a value, in order.
@@ -164,10 +199,10 @@ impl<'a> File<'_, '_, 'a, '_> {
             .collect()
     }
 
-    fn unknown_field(&mut self, class: Class, id: FieldId, node: &mut Node) {
+    fn unknown_field(&mut self, spec: &ClassSpec, id: FieldId, node: &mut Node) {
         let tree = self.tree;
         let field = tree.field(id);
-        if DESCRIPTION.contains(&field.name) || upgrade::old_field(self, class, id, node) {
+        if DESCRIPTION.contains(&field.name) || spec.has_parts() {
             return;
         }
         let handles: Vec<NodeId> = self.handles(&field.value).into_iter().flatten().collect();
@@ -175,17 +210,17 @@ impl<'a> File<'_, '_, 'a, '_> {
             return;
         }
         let name = text_of(&field.name[..field.name.len().min(80)]);
-        let kept = class.spec().is_group() && !handles.is_empty();
+        let kept = spec.is_group() && !handles.is_empty();
         if kept {
             node.children.extend(handles);
         }
-        let hint = match (kept, closest_field(class, &name)) {
+        let hint = match (kept, closest_field(spec, &name)) {
             (true, _) => "the node in it was kept as a child".to_owned(),
             (false, Some(near)) => format!("did you mean `{near}`? The value was ignored"),
             (false, None) => "the value was ignored".to_owned(),
         };
         let span = head(field.span, field.name.len());
-        let message = format!("`{name}` is not a field of {}", class.name());
+        let message = format!("`{name}` is not a field of {}", spec.name);
         self.problem(Severity::Warning, "unknown-field", message, &hint, span);
     }
 
@@ -245,7 +280,7 @@ fn head(span: Span, len: usize) -> Span {
 }
 
 /// A field whose name differs by case or one letter.
-fn closest_field(class: Class, name: &str) -> Option<&'static str> {
+fn closest_field(spec: &ClassSpec, name: &str) -> Option<&'static str> {
     let near = |known: &str| {
         if known.eq_ignore_ascii_case(name) {
             return true;
@@ -266,10 +301,5 @@ fn closest_field(class: Class, name: &str) -> Option<&'static str> {
             .count();
         name.len() > 2 && rest(known) - same_end <= 2 && rest(name) - same_end <= 2
     };
-    class
-        .spec()
-        .fields
-        .iter()
-        .map(|f| f.name)
-        .find(|known| near(known))
+    spec.fields.iter().map(|f| f.name).find(|known| near(known))
 }

@@ -1,0 +1,128 @@
+//! The numbers of a buffer, streamed from the scene's arrays through one small block.
+
+use std::io::{self, Write};
+
+use scenegraph::scene::{Mesh, Scene};
+
+use crate::color::{linear_from_srgb, u16_from_unit};
+use crate::layout::{Data, Layout};
+use crate::texture::Textures;
+
+/// A multiple of every element's size, small enough to stay in the processor's cache.
+const BLOCK_BYTES: usize = 24 * 1024;
+
+/// Writes buffer number `buffer`, exactly as long as the layout says.
+pub(crate) fn write_buffer(
+    buffer: usize,
+    layout: &Layout,
+    scene: &Scene,
+    textures: &Textures,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut packer = Packer {
+        out,
+        written: 0,
+        block: vec![0; BLOCK_BYTES],
+    };
+    for accessor in &layout.accessors {
+        let view = &layout.views[accessor.view];
+        if view.buffer == buffer {
+            packer.pad_to(view.offset + accessor.offset)?;
+            packer.write_array(&scene.meshes[accessor.mesh.index()], accessor.data)?;
+        }
+    }
+    for (i, view) in layout.views[layout.first_image_view..].iter().enumerate() {
+        if view.buffer == buffer {
+            packer.pad_to(view.offset)?;
+            packer.write_bytes(textures.image_bytes(i))?;
+        }
+    }
+    Ok(())
+}
+
+struct Packer<'w> {
+    out: &'w mut dyn Write,
+    written: u64,
+    block: Vec<u8>,
+}
+
+impl Packer<'_> {
+    /// At most three bytes, by the layout's alignment.
+    fn pad_to(&mut self, offset: u64) -> io::Result<()> {
+        while self.written < offset {
+            self.write_bytes(&[0])?;
+        }
+        Ok(())
+    }
+
+    fn write_bytes(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.written += bytes.len() as u64;
+        self.out.write_all(bytes)
+    }
+
+    fn write_array(&mut self, mesh: &Mesh, data: Data) -> io::Result<()> {
+        match data {
+            Data::Positions => self.pack(&mesh.positions, |&p| bytes_of_vec3(p)),
+            Data::Normals => self.pack(&mesh.normals, |&n| bytes_of_vec3(n)),
+            // Inventor's T goes up from the image's lower edge, glTF's down from the upper.
+            Data::Texcoords => self.pack(&mesh.texcoords, |&[s, t]| {
+                let ([a, b, c, d], [e, f, g, h]) = (s.to_le_bytes(), (1.0 - t).to_le_bytes());
+                [a, b, c, d, e, f, g, h]
+            }),
+            Data::Colors => {
+                let mut channels = [Channel::default(); 3];
+                self.pack(&mesh.colors_srgb, |color| {
+                    bytes_of_color(color, &mut channels)
+                })
+            }
+            // The width was chosen by the number of vertices.
+            Data::Indices16 => self.pack(&mesh.indices, |&i| (i as u16).to_le_bytes()),
+            Data::Indices32 => self.pack(&mesh.indices, |&i| i.to_le_bytes()),
+        }
+    }
+
+    fn pack<T, const N: usize>(
+        &mut self,
+        items: &[T],
+        mut bytes_of: impl FnMut(&T) -> [u8; N],
+    ) -> io::Result<()> {
+        for items in items.chunks(BLOCK_BYTES / N) {
+            for (slot, item) in self.block.chunks_exact_mut(N).zip(items) {
+                slot.copy_from_slice(&bytes_of(item));
+            }
+            let bytes = items.len() * N;
+            self.out.write_all(&self.block[..bytes])?;
+            self.written += bytes as u64;
+        }
+        Ok(())
+    }
+}
+
+fn bytes_of_vec3(v: [f32; 3]) -> [u8; 12] {
+    let mut bytes = [0; 12];
+    for (slot, x) in bytes.chunks_exact_mut(4).zip(v) {
+        slot.copy_from_slice(&x.to_le_bytes());
+    }
+    bytes
+}
+
+/// The last value of a colour channel: neighbouring vertices mostly share their colour, and the
+/// transfer function is slow.
+#[derive(Clone, Copy, Default)]
+struct Channel {
+    srgb: f32,
+    linear: u16,
+}
+
+fn bytes_of_color(&[r, g, b, alpha]: &[f32; 4], channels: &mut [Channel; 3]) -> [u8; 8] {
+    let mut bytes = [0; 8];
+    for ((slot, srgb), last) in bytes.chunks_exact_mut(2).zip([r, g, b]).zip(channels) {
+        if srgb != last.srgb {
+            let linear = u16_from_unit(linear_from_srgb(f64::from(srgb)));
+            *last = Channel { srgb, linear };
+        }
+        slot.copy_from_slice(&last.linear.to_le_bytes());
+    }
+    bytes[6..].copy_from_slice(&u16_from_unit(f64::from(alpha)).to_le_bytes());
+    bytes
+}

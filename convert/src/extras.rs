@@ -1,0 +1,175 @@
+//! `extras.iv`: Inventor's own values, which glTF has no place for. Names are those of Inventor's
+//! fields; a value equal to Inventor's default is left out.
+
+use scenegraph::scene::{
+    Camera, Environment, Faces, Fog, FogType, Light, LightKind, LightModel, Material, Scene,
+    Texture, TextureModel, TextureSource, ViewportMapping,
+};
+
+use crate::json::Json;
+
+/// Half a unit in the last of the six digits that Inventor's documents give for defaults.
+const DEFAULT_TOLERANCE: f64 = 5e-7;
+
+fn iv(json: &mut Json, body: impl FnOnce(&mut Json)) {
+    json.object_unless_empty("extras", |json| json.object_unless_empty("iv", body));
+}
+
+fn number(json: &mut Json, key: &str, value: f64, default: f64) {
+    if (value - default).abs() > DEFAULT_TOLERANCE {
+        json.key(key).field(value);
+    }
+}
+
+fn numbers(json: &mut Json, key: &str, values: [f64; 3], default: [f64; 3]) {
+    if values
+        .iter()
+        .zip(default)
+        .any(|(v, d)| (v - d).abs() > DEFAULT_TOLERANCE)
+    {
+        json.key(key).fields(&values);
+    }
+}
+
+pub(crate) fn material(json: &mut Json, material: &Material) {
+    iv(json, |json| {
+        numbers(json, "ambientColor", material.ambient_srgb, [0.2; 3]);
+        numbers(json, "diffuseColor", material.diffuse_srgb, [0.8; 3]);
+        numbers(json, "specularColor", material.specular_srgb, [0.0; 3]);
+        numbers(json, "emissiveColor", material.emissive_srgb, [0.0; 3]);
+        number(json, "shininess", material.shininess, 0.2);
+        number(json, "transparency", material.transparency, 0.0);
+        if material.light_model == LightModel::BaseColor {
+            json.key("lightModel").str("BASE_COLOR");
+        }
+        if material.faces != Faces::BothOneSidedLighting {
+            json.key("vertexOrdering").str("COUNTERCLOCKWISE");
+        }
+        if material.faces == Faces::FrontOnly {
+            json.key("shapeType").str("SOLID");
+        }
+        number(json, "lineWidth", material.line_width_px, 0.0);
+        number(json, "pointSize", material.point_size_px, 0.0);
+        if material.line_pattern != 0xffff {
+            json.key("linePattern").u64(material.line_pattern.into());
+        }
+    });
+}
+
+pub(crate) fn texture(json: &mut Json, texture: &Texture) {
+    iv(json, |json| {
+        if let TextureSource::File { name, .. } = &texture.source {
+            json.key("filename").str(name);
+        }
+        let model = match texture.model {
+            TextureModel::Modulate => None,
+            TextureModel::Decal => Some("DECAL"),
+            TextureModel::Blend => Some("BLEND"),
+            TextureModel::Replace => Some("REPLACE"),
+        };
+        if let Some(model) = model {
+            json.key("model").str(model);
+        }
+        numbers(json, "blendColor", texture.blend_color_srgb, [0.0; 3]);
+    });
+}
+
+pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
+    iv(json, |json| {
+        number(json, "intensity", light.intensity, 1.0);
+        numbers(json, "color", light.color_srgb, [1.0; 3]);
+        if !matches!(light.kind, LightKind::Directional { .. }) {
+            numbers(
+                json,
+                "attenuation",
+                environment.attenuation,
+                [0.0, 0.0, 1.0],
+            );
+        }
+        if let LightKind::Spot {
+            drop_off_rate,
+            cut_off_angle_rad,
+            ..
+        } = light.kind
+        {
+            number(json, "dropOffRate", drop_off_rate, 0.0);
+            number(json, "cutOffAngle", cut_off_angle_rad, 0.785_398);
+        }
+    });
+}
+
+pub(crate) fn camera(json: &mut Json, camera: &Camera) {
+    iv(json, |json| {
+        number(json, "aspectRatio", camera.aspect_ratio, 1.0);
+        number(json, "nearDistance", camera.near_distance, 1.0);
+        number(json, "farDistance", camera.far_distance, 10.0);
+        number(json, "focalDistance", camera.focal_distance, 5.0);
+        match camera.viewport_mapping {
+            ViewportMapping::AdjustCamera => {}
+            ViewportMapping::CropViewport => {
+                json.key("viewportMapping").str("CROP_VIEWPORT_FILL_FRAME")
+            }
+            ViewportMapping::LeaveAlone => json.key("viewportMapping").str("LEAVE_ALONE"),
+        }
+    });
+}
+
+/// Classes that say no more than that there is a node.
+fn is_plain_group(class: &str) -> bool {
+    matches!(class, "Separator" | "Group")
+}
+
+/// The class of a node when it says something.
+pub(crate) fn notable_class(class: &str) -> Option<&str> {
+    (!is_plain_group(class)).then_some(class)
+}
+
+pub(crate) fn node<'a>(
+    json: &mut Json,
+    class: Option<&str>,
+    notes: impl IntoIterator<Item = &'a str>,
+) {
+    iv(json, |json| {
+        if let Some(class) = class {
+            json.key("type").str(class);
+        }
+        json.array_unless_empty("notes", notes, |json, note| json.str(note));
+    });
+}
+
+pub(crate) fn scene(json: &mut Json, scene: &Scene) {
+    let default = Environment::default();
+    iv(json, |json| {
+        let notable = scene.environments.iter().filter(|e| **e != default);
+        json.array_unless_empty("environments", notable, |json, environment| {
+            json.object(|json| {
+                number(json, "ambientIntensity", environment.ambient_intensity, 0.2);
+                numbers(
+                    json,
+                    "ambientColor",
+                    environment.ambient_color_srgb,
+                    [1.0; 3],
+                );
+                numbers(
+                    json,
+                    "attenuation",
+                    environment.attenuation,
+                    [0.0, 0.0, 1.0],
+                );
+                if let Some(fog) = &environment.fog {
+                    write_fog(json, fog);
+                }
+            });
+        });
+    });
+}
+
+fn write_fog(json: &mut Json, fog: &Fog) {
+    json.key("fogType").str(match fog.fog_type {
+        FogType::Haze => "HAZE",
+        FogType::Fog => "FOG",
+        FogType::Smoke => "SMOKE",
+    });
+    numbers(json, "fogColor", fog.color_srgb, [1.0; 3]);
+    number(json, "fogVisibility", fog.visibility, 0.0);
+}

@@ -1,0 +1,345 @@
+//! The scene's groups and items as glTF nodes, as few as will do.
+//!
+//! A group whose only content is one node becomes one with it, unless both have a name or both
+//! say something in their extras, or unless the product of their transforms shears while neither
+//! does. glTF's transforms cannot shear; one that does becomes two nodes, the inner one a rotation.
+//!
+//! A light keeps its place in the hierarchy if its group's frame is a rotation with uniform
+//! scale, a camera if it is a rotation. Otherwise it stands at the root in world coordinates:
+//! viewers that take a node's frame for a rotation then still get the right direction.
+
+use std::sync::Arc;
+
+use geometry::transform::{Decomposition, Trs, decompose};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use scenegraph::scene::{NodeId, Placement, Scene};
+
+use crate::frame::{is_rotation, uniform_scale};
+use crate::json::Json;
+use crate::{camera, extras, light};
+
+/// What a node shows, by glTF index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Content {
+    Nothing,
+    Mesh(u32),
+    Light(u32),
+    Camera(u32),
+}
+
+/// A node being put together.
+struct Draft<'s> {
+    name: Option<&'s str>,
+    class: Option<&'s str>,
+    notes: Vec<&'s str>,
+    parent_from_local: DAffine3,
+    content: Content,
+    children: Vec<usize>,
+}
+
+/// The nodes to be written.
+pub(crate) struct Hierarchy<'s> {
+    drafts: Vec<Draft<'s>>,
+    roots: Vec<usize>,
+}
+
+/// A member of a group while the groups are not put together yet.
+#[derive(Clone, Copy)]
+enum Member {
+    Group(usize),
+    Item(usize),
+}
+
+impl<'s> Hierarchy<'s> {
+    /// `meshes` are the glTF meshes of the instances.
+    pub(crate) fn new(scene: &'s Scene, meshes: &[u32]) -> Self {
+        let mut builder = Builder::new(scene);
+        for (instance, &mesh) in scene.instances.iter().zip(meshes) {
+            let origin = scene.meshes[instance.mesh.index()].origin;
+            let placement = &instance.placement;
+            let local = placement.parent_from_local * DAffine3::from_translation(origin);
+            builder.add_item(placement.node, &placement.name, local, Content::Mesh(mesh));
+        }
+        let frames = builder.group_frames();
+        for (i, light) in scene.lights.iter().enumerate() {
+            let keeps = |linear: &DMat3| uniform_scale(linear).is_some();
+            builder.add_view(
+                &light.placement,
+                Content::Light(i as u32),
+                |frame| light::frame(&light.kind, frame),
+                |node| keeps(&frames[node.index()].matrix3),
+            );
+        }
+        for (i, camera) in scene.cameras.iter().enumerate() {
+            builder.add_view(
+                &camera.placement,
+                Content::Camera(i as u32),
+                |frame| camera::frame(camera, frame),
+                |node| is_rotation(&frames[node.index()].matrix3),
+            );
+        }
+        builder.finish()
+    }
+
+    /// `scenes` and `nodes`; gives the number of nodes. Children follow their parents, and those
+    /// of one parent stand together.
+    pub(crate) fn write(&self, json: &mut Json, scene: &Scene, with_extras: bool) -> usize {
+        json.key("scene").u64(0);
+        json.key("scenes").array(|json| {
+            json.object(|json| {
+                json.array_unless_empty("nodes", 0..self.roots.len(), Json::usize);
+                if with_extras {
+                    extras::scene(json, scene);
+                }
+            });
+        });
+        let mut queue: Vec<Part> = self.roots.iter().copied().map(Part::Whole).collect();
+        if queue.is_empty() {
+            return 0;
+        }
+        json.key("nodes").array(|json| {
+            let mut next = 0;
+            while next < queue.len() {
+                let first_child = queue.len();
+                self.write_node(json, queue[next], &mut queue, first_child, with_extras);
+                next += 1;
+            }
+        });
+        queue.len()
+    }
+
+    fn write_node(
+        &self,
+        json: &mut Json,
+        part: Part,
+        queue: &mut Vec<Part>,
+        first_child: usize,
+        with_extras: bool,
+    ) {
+        let (draft, inner_rotation) = match part {
+            Part::Whole(index) => (index, None),
+            Part::Inner(index, rotation) => (index, Some(rotation)),
+        };
+        let node = &self.drafts[draft];
+        let (trs, splits_to) = match inner_rotation {
+            Some(rotation) => (rotation_only(rotation), None),
+            None => match decompose(&node.parent_from_local) {
+                Decomposition::Trs(trs) => (trs, None),
+                Decomposition::Sheared { outer, inner } => (outer, Some(inner)),
+            },
+        };
+        json.object(|json| {
+            if let (Some(name), None) = (node.name, inner_rotation) {
+                json.key("name").str(name);
+            }
+            write_transform(json, &trs);
+            match splits_to {
+                Some(inner) => queue.push(Part::Inner(draft, inner)),
+                None => {
+                    node.content.write(json);
+                    queue.extend(node.children.iter().copied().map(Part::Whole));
+                }
+            }
+            json.array_unless_empty("children", first_child..queue.len(), Json::usize);
+            if with_extras && inner_rotation.is_none() {
+                extras::node(json, node.class, node.notes.iter().copied());
+            }
+        });
+    }
+}
+
+/// A glTF node: a draft, or the inside of one that shears.
+#[derive(Clone, Copy)]
+enum Part {
+    Whole(usize),
+    Inner(usize, DQuat),
+}
+
+struct Builder<'s> {
+    scene: &'s Scene,
+    drafts: Vec<Draft<'s>>,
+    /// By group; the last entry is the world.
+    members: Vec<Vec<Member>>,
+}
+
+impl<'s> Builder<'s> {
+    fn new(scene: &'s Scene) -> Self {
+        let mut builder = Self {
+            scene,
+            drafts: Vec::with_capacity(scene.instances.len()),
+            members: vec![Vec::new(); scene.nodes.len() + 1],
+        };
+        for (i, node) in scene.nodes.iter().enumerate() {
+            builder.members_of(node.parent).push(Member::Group(i));
+        }
+        builder
+    }
+
+    fn members_of(&mut self, node: Option<NodeId>) -> &mut Vec<Member> {
+        let world = self.scene.nodes.len();
+        &mut self.members[node.map_or(world, NodeId::index)]
+    }
+
+    fn add_item(
+        &mut self,
+        group: Option<NodeId>,
+        name: &'s Option<Arc<str>>,
+        parent_from_local: DAffine3,
+        content: Content,
+    ) {
+        let item = Member::Item(self.drafts.len());
+        self.members_of(group).push(item);
+        self.drafts.push(Draft {
+            name: name.as_deref(),
+            class: None,
+            notes: Vec::new(),
+            parent_from_local,
+            content,
+            children: Vec::new(),
+        });
+    }
+
+    /// A light or camera: under its group if `keeps` says so, else at the root.
+    fn add_view(
+        &mut self,
+        placement: &'s Placement,
+        content: Content,
+        frame_in: impl Fn(&DAffine3) -> DAffine3,
+        keeps: impl Fn(NodeId) -> bool,
+    ) {
+        let group = placement.node.filter(|&node| keeps(node));
+        let frame = match group {
+            Some(_) => frame_in(&placement.parent_from_local),
+            None => frame_in(&placement.world_from_local),
+        };
+        self.add_item(group, &placement.name, frame, content);
+    }
+
+    /// The groups' frames in the world, needed for lights and cameras only.
+    fn group_frames(&self) -> Vec<DAffine3> {
+        let mut frames: Vec<DAffine3> = Vec::new();
+        if self.scene.lights.is_empty() && self.scene.cameras.is_empty() {
+            return frames;
+        }
+        frames.reserve(self.scene.nodes.len());
+        for node in &self.scene.nodes {
+            let world_from_parent = node
+                .parent
+                .map_or(DAffine3::IDENTITY, |p| frames[p.index()]);
+            frames.push(world_from_parent * node.parent_from_local);
+        }
+        frames
+    }
+
+    /// Groups from the last to the first, so that children are done before their parents.
+    fn finish(mut self) -> Hierarchy<'s> {
+        let mut done: Vec<Option<usize>> = vec![None; self.scene.nodes.len()];
+        let world = self.members.pop().unwrap_or_default();
+        for i in (0..self.scene.nodes.len()).rev() {
+            let children = resolved(&std::mem::take(&mut self.members[i]), &done);
+            done[i] = self.put_together(i, children);
+        }
+        let roots = resolved(&world, &done);
+        Hierarchy {
+            drafts: self.drafts,
+            roots,
+        }
+    }
+
+    /// The draft of a group: its only child, its own, or none when it says and holds nothing.
+    fn put_together(&mut self, group: usize, children: Vec<usize>) -> Option<usize> {
+        let node = &self.scene.nodes[group];
+        let draft = Draft {
+            name: node.name.as_deref(),
+            class: extras::notable_class(&node.class),
+            notes: node.notes.iter().map(|note| &**note).collect(),
+            parent_from_local: node.parent_from_local,
+            content: Content::Nothing,
+            children,
+        };
+        match *draft.children {
+            [] if draft.name.is_none() && draft.notes.is_empty() => return None,
+            [only] if draft.can_merge_with(&self.drafts[only]) => {
+                self.drafts[only].take_in(draft);
+                return Some(only);
+            }
+            _ => {}
+        }
+        self.drafts.push(draft);
+        Some(self.drafts.len() - 1)
+    }
+}
+
+fn resolved(members: &[Member], done: &[Option<usize>]) -> Vec<usize> {
+    let draft_of = |&member: &Member| match member {
+        Member::Group(group) => done[group],
+        Member::Item(item) => Some(item),
+    };
+    members.iter().filter_map(draft_of).collect()
+}
+
+impl Draft<'_> {
+    fn can_merge_with(&self, child: &Self) -> bool {
+        let both = |mine: bool, childs: bool| mine && childs;
+        if both(self.name.is_some(), child.name.is_some())
+            || both(self.class.is_some(), child.class.is_some())
+            || both(!self.notes.is_empty(), !child.notes.is_empty())
+        {
+            return false;
+        }
+        // Then the product shears only if one of the two does, and splits as that one would.
+        let (outer, inner) = (&self.parent_from_local, &child.parent_from_local);
+        if outer.matrix3 == DMat3::IDENTITY || inner.matrix3 == DMat3::IDENTITY {
+            return (*outer * *inner).is_finite();
+        }
+        let product = *outer * *inner;
+        product.is_finite() && matches!(decompose(&product), Decomposition::Trs(_))
+    }
+}
+
+impl<'s> Draft<'s> {
+    /// Becomes one with the group around it.
+    fn take_in(&mut self, group: Draft<'s>) {
+        self.parent_from_local = group.parent_from_local * self.parent_from_local;
+        self.name = group.name.or(self.name);
+        self.class = group.class.or(self.class);
+        if self.notes.is_empty() {
+            self.notes = group.notes;
+        }
+    }
+}
+
+impl Content {
+    fn write(self, json: &mut Json) {
+        match self {
+            Self::Nothing => {}
+            Self::Mesh(index) => json.key("mesh").u64(index.into()),
+            Self::Camera(index) => json.key("camera").u64(index.into()),
+            Self::Light(index) => json.key("extensions").object(|json| {
+                json.key("KHR_lights_punctual")
+                    .object(|json| json.key("light").u64(index.into()));
+            }),
+        }
+    }
+}
+
+fn rotation_only(rotation: DQuat) -> Trs {
+    Trs {
+        translation: DVec3::ZERO,
+        rotation,
+        scale: DVec3::ONE,
+    }
+}
+
+/// Left out are the parts that change nothing.
+fn write_transform(json: &mut Json, trs: &Trs) {
+    if trs.translation != DVec3::ZERO {
+        json.key("translation").f64s(&trs.translation.to_array());
+    }
+    if trs.rotation != DQuat::IDENTITY {
+        json.key("rotation").f64s(&trs.rotation.to_array());
+    }
+    if trs.scale != DVec3::ONE {
+        json.key("scale").f64s(&trs.scale.to_array());
+    }
+}

@@ -1,0 +1,144 @@
+//! Inventor's lights as `KHR_lights_punctual`.
+//!
+//! glTF viewers reflect albedo / pi, Inventor's model reflects albedo; so a directional light has
+//! pi * intensity lux. Point and spot lights fall with the square of the distance in glTF and by
+//! 1 / (a d^2 + b d + c) in Inventor; the candela make both agree at d_ref, the distance to the
+//! centre of the scene's bounds.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::{DAffine3, DVec3};
+use scenegraph::scene::{Environment, Light, LightKind};
+
+use crate::bounds::Bounds;
+use crate::color::{linear_rgb_from_srgb, unit};
+use crate::extras;
+use crate::frame::{looking, unit_or};
+use crate::json::Json;
+
+/// Share of the scene's radius within which a light counts as at its centre, where it lights
+/// what is around it: at the distance of the radius.
+const CENTER_SHARE: f64 = 1e-3;
+/// Brightness at which the cosine power counts as falling.
+const INNER_CONE_BRIGHTNESS: f64 = 0.9;
+/// The inner cone must be smaller than the outer one; this much of it, at most.
+const INNER_CONE_SHARE: f64 = 0.999;
+/// Narrowest cone, radians.
+const MIN_CONE_RAD: f64 = 1e-4;
+/// Viewers hold f32.
+const MAX_INTENSITY: f64 = 1e30;
+
+/// The light's frame in that of its group: along -Z, at the location of a point or spot light.
+pub(crate) fn frame(kind: &LightKind, parent_from_local: &DAffine3) -> DAffine3 {
+    let along =
+        |direction: DVec3| unit_or(parent_from_local.transform_vector3(direction), DVec3::NEG_Z);
+    match *kind {
+        LightKind::Directional { direction } => looking(DVec3::ZERO, along(direction), DVec3::Y),
+        LightKind::Point { location } => {
+            DAffine3::from_translation(parent_from_local.transform_point3(location))
+        }
+        LightKind::Spot {
+            location,
+            direction,
+            ..
+        } => {
+            let location = parent_from_local.transform_point3(location);
+            looking(location, along(direction), DVec3::Y)
+        }
+    }
+}
+
+pub(crate) fn write(
+    json: &mut Json,
+    light: &Light,
+    environment: &Environment,
+    bounds: Option<&Bounds>,
+    with_extras: bool,
+) {
+    json.object(|json| {
+        json.key("type").str(match light.kind {
+            LightKind::Directional { .. } => "directional",
+            LightKind::Point { .. } => "point",
+            LightKind::Spot { .. } => "spot",
+        });
+        let color_linear = linear_rgb_from_srgb(light.color_srgb);
+        if color_linear != [1.0; 3] {
+            json.key("color").f32s(&color_linear.map(|v| v as f32));
+        }
+        let strength = intensity(light, environment, bounds);
+        if strength != 1.0 {
+            json.key("intensity").f32(strength as f32);
+        }
+        if let LightKind::Spot {
+            drop_off_rate,
+            cut_off_angle_rad,
+            ..
+        } = light.kind
+        {
+            let (inner, outer) = cone(drop_off_rate, cut_off_angle_rad);
+            json.key("spot").object(|json| {
+                json.key("innerConeAngle").f64(inner);
+                json.key("outerConeAngle").f64(outer);
+            });
+        }
+        if with_extras {
+            extras::light(json, light, environment);
+        }
+    });
+}
+
+/// Lux of a directional light, candela of the others.
+fn intensity(light: &Light, environment: &Environment, bounds: Option<&Bounds>) -> f64 {
+    let location = match light.kind {
+        LightKind::Directional { .. } => None,
+        LightKind::Point { location } | LightKind::Spot { location, .. } => Some(location),
+    };
+    let at_reference = location.map_or(1.0, |location| {
+        let p_in_world = light.placement.world_from_local.transform_point3(location);
+        let d = reference_distance(p_in_world, bounds);
+        let [a, b, c] = environment.attenuation;
+        let divisor = a * d * d + b * d + c;
+        if divisor > 0.0 {
+            d * d / divisor
+        } else {
+            d * d
+        }
+    });
+    let intensity = PI * light.intensity.max(0.0) * at_reference;
+    if intensity.is_nan() {
+        0.0
+    } else {
+        intensity.min(MAX_INTENSITY)
+    }
+}
+
+fn reference_distance(p_in_world: DVec3, bounds: Option<&Bounds>) -> f64 {
+    let Some(bounds) = bounds else { return 1.0 };
+    let (distance, radius) = (p_in_world.distance(bounds.center()), bounds.radius());
+    let distance = if distance > CENTER_SHARE * radius {
+        distance
+    } else {
+        radius
+    };
+    if distance > 0.0 && distance.is_finite() {
+        distance
+    } else {
+        1.0
+    }
+}
+
+/// Inner and outer half angles: where cos^e has fallen to nine tenths, and the cut-off.
+fn cone(drop_off_rate: f64, cut_off_angle_rad: f64) -> (f64, f64) {
+    let outer = if cut_off_angle_rad > MIN_CONE_RAD {
+        cut_off_angle_rad.min(FRAC_PI_2)
+    } else {
+        MIN_CONE_RAD
+    };
+    let exponent = 128.0 * unit(drop_off_rate);
+    let inner = if exponent > 0.0 {
+        INNER_CONE_BRIGHTNESS.powf(1.0 / exponent).acos()
+    } else {
+        FRAC_PI_2
+    };
+    (inner.min(outer * INNER_CONE_SHARE), outer)
+}

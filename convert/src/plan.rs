@@ -1,0 +1,275 @@
+//! A conversion with everything decided and measured, and nothing written yet.
+
+use std::io::{self, Write};
+
+use rustc_hash::FxHashMap;
+use scenegraph::scene::{Instance, MaterialId, MeshId, Scene, Topology};
+
+use crate::bounds::Bounds;
+use crate::hierarchy::Hierarchy;
+use crate::json::Json;
+use crate::layout::{Layout, Needs};
+use crate::material::{GltfMaterial, Surroundings};
+use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_texture};
+use crate::remarks::Remarks;
+use crate::texture::{TextureLoader, Textures};
+use crate::{Container, Error, Options, Report, binary, camera, light, sound};
+
+/// A conversion with everything decided and measured: which materials, meshes, nodes and images
+/// there are, and where each number goes.
+pub struct Plan<'s> {
+    pub(crate) scene: &'s Scene,
+    pub(crate) options: Options,
+    textures: Textures<'s>,
+    materials: Vec<GltfMaterial>,
+    meshes: Vec<GltfMesh>,
+    /// By mesh of the scene.
+    needs: Vec<Option<Needs>>,
+    pub(crate) layout: Layout,
+    hierarchy: Hierarchy<'s>,
+    bounds: Option<Bounds>,
+    pub(crate) report: Report,
+}
+
+impl<'s> Plan<'s> {
+    /// Decides everything; opens the images that something shows.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Scene`] if the scene breaks one of its guarantees, [`Error::BinTooLarge`] if one
+    /// array does not fit into a `.bin`.
+    pub fn new(
+        scene: &'s Scene,
+        options: &Options,
+        loader: &'s dyn TextureLoader,
+    ) -> Result<Self, Error> {
+        sound::check(scene)?;
+        let mut gathering = Gathering::new(scene, loader);
+        let meshes_of_instances: Vec<u32> = scene
+            .instances
+            .iter()
+            .map(|instance| gathering.instance(instance))
+            .collect();
+        let Gathering {
+            mut textures,
+            materials,
+            meshes,
+            needs,
+            remarks,
+            triangles_drawn,
+            ..
+        } = gathering;
+
+        let max_buffer_bytes = match options.container {
+            Container::Glb => u64::MAX,
+            Container::GltfBin => options.max_bin_bytes,
+        };
+        let image_lens = (0..textures.image_count()).map(|i| textures.image_bytes(i).len() as u64);
+        let layout = Layout::new(scene, &needs, image_lens, max_buffer_bytes)?;
+        let mut report = Report {
+            losses: remarks.into_losses(),
+            warnings: textures.take_warnings(),
+            ..Report::default()
+        };
+        let counts = &mut report.counts;
+        counts.meshes = meshes.len();
+        counts.materials = materials.len();
+        counts.images = textures.image_count();
+        counts.lights = scene.lights.len();
+        counts.cameras = scene.cameras.len();
+        counts.triangles_drawn = triangles_drawn;
+        counts.triangles = (scene.meshes.iter().zip(&needs))
+            .filter(|(mesh, needs)| needs.is_some() && mesh.topology == Topology::Triangles)
+            .map(|(mesh, _)| mesh.primitive_count() as u64)
+            .sum();
+        Ok(Self {
+            bounds: Bounds::of(scene, &needs),
+            hierarchy: Hierarchy::new(scene, &meshes_of_instances),
+            scene,
+            options: options.clone(),
+            textures,
+            materials,
+            meshes,
+            needs,
+            layout,
+            report,
+        })
+    }
+
+    /// What is lost and missing; the counts of nodes and bytes are known after writing.
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    pub(crate) fn write_buffer(&self, buffer: usize, out: &mut dyn Write) -> io::Result<()> {
+        binary::write_buffer(buffer, &self.layout, self.scene, &self.textures, out)
+    }
+
+    /// The glTF text, and the number of its nodes; `uri_of` names the files of the buffers.
+    pub(crate) fn json(&self, uri_of: impl Fn(usize) -> Option<String>) -> (Vec<u8>, usize) {
+        let extras = self.options.extras;
+        // About what a node and an accessor take, so that the text need not move often.
+        let guess = 1024 + 160 * self.scene.instances.len() + 170 * self.layout.accessors.len();
+        let mut json = Json::with_capacity(guess);
+        let mut nodes = 0;
+        json.object(|json| {
+            json.key("asset").object(|json| {
+                json.key("version").str("2.0");
+                json.key("generator")
+                    .str(concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")));
+            });
+            json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
+            self.write_lights(json);
+            nodes = self.hierarchy.write(json, self.scene, extras);
+            json.array_unless_empty("cameras", &self.scene.cameras, |json, camera| {
+                camera::write(json, camera, self.bounds.as_ref(), extras);
+            });
+            json.array_unless_empty("materials", &self.materials, |json, material| {
+                let source = &self.scene.materials[material.source.index()];
+                material.write(json, source, extras);
+            });
+            json.array_unless_empty("meshes", &self.meshes, |json, mesh| {
+                let source = mesh.source.index();
+                let topology = self.scene.meshes[source].topology;
+                mesh.write(json, topology, &self.layout.meshes[source]);
+            });
+            let first_image_view = self.layout.first_image_view;
+            self.textures
+                .write(json, extras, |image| (first_image_view + image) as u32);
+            self.layout.write(json, self.scene, &self.needs, uri_of);
+        });
+        (json.into_bytes(), nodes)
+    }
+
+    fn write_lights(&self, json: &mut Json) {
+        if self.scene.lights.is_empty() {
+            return;
+        }
+        json.key("extensions").object(|json| {
+            json.key("KHR_lights_punctual").object(|json| {
+                json.array_unless_empty("lights", &self.scene.lights, |json, light| {
+                    let environment = &self.scene.environments[light.environment.index()];
+                    let bounds = self.bounds.as_ref();
+                    light::write(json, light, environment, bounds, self.options.extras);
+                });
+            });
+        });
+    }
+
+    fn extensions(&self) -> impl Iterator<Item = &'static str> {
+        let any = |test: fn(&GltfMaterial) -> bool| self.materials.iter().any(test);
+        let used = [
+            ("KHR_lights_punctual", !self.scene.lights.is_empty()),
+            (
+                "KHR_materials_ior",
+                any(|m| !m.unlit && m.specular.is_some()),
+            ),
+            ("KHR_materials_specular", any(|m| !m.unlit)),
+            ("KHR_materials_unlit", any(|m| m.unlit)),
+        ];
+        used.into_iter()
+            .filter(|(_, used)| *used)
+            .map(|(name, _)| name)
+    }
+}
+
+/// Meshes and materials being gathered from the instances, in their order.
+struct Gathering<'s> {
+    scene: &'s Scene,
+    textures: Textures<'s>,
+    materials: Vec<GltfMaterial>,
+    material_of: FxHashMap<(MaterialId, Surroundings), u32>,
+    meshes: Vec<GltfMesh>,
+    mesh_of: FxHashMap<MeshUse, u32>,
+    needs: Vec<Option<Needs>>,
+    remarks: Remarks<'s>,
+    triangles_drawn: u64,
+}
+
+impl<'s> Gathering<'s> {
+    fn new(scene: &'s Scene, loader: &'s dyn TextureLoader) -> Self {
+        Self {
+            scene,
+            textures: Textures::new(scene, loader),
+            materials: Vec::new(),
+            material_of: FxHashMap::default(),
+            meshes: Vec::new(),
+            mesh_of: FxHashMap::default(),
+            needs: vec![None; scene.meshes.len()],
+            remarks: Remarks::new(scene),
+            triangles_drawn: 0,
+        }
+    }
+
+    /// The glTF mesh of an instance.
+    fn instance(&mut self, instance: &Instance) -> u32 {
+        let source = &self.scene.meshes[instance.mesh.index()];
+        if source.topology == Topology::Triangles {
+            self.triangles_drawn += source.primitive_count() as u64;
+        }
+        let needs = self.needs[instance.mesh.index()].get_or_insert_with(|| Needs {
+            facts: Facts::of(source),
+            attributes: Attributes::default(),
+        });
+        let colors = needs.facts.colors;
+        let key = (instance.mesh, instance.material);
+        let mesh = match self.mesh_of.get(&key) {
+            Some(&known) => known,
+            None => self.add_mesh(key),
+        };
+        let material = self.meshes[mesh as usize].material;
+        self.remarks
+            .instance(instance, &self.materials[material as usize], colors);
+        mesh
+    }
+
+    fn add_mesh(&mut self, key: MeshUse) -> u32 {
+        let (source, _) = key;
+        let material = self.material(key);
+        let mesh = &self.scene.meshes[source.index()];
+        let attributes = Attributes::read_by(&self.materials[material as usize], mesh);
+        if let Some(needs) = &mut self.needs[source.index()] {
+            needs.attributes = needs.attributes.union(attributes);
+        }
+        let index = self.meshes.len() as u32;
+        self.meshes.push(GltfMesh {
+            source,
+            material,
+            attributes,
+        });
+        self.mesh_of.insert(key, index);
+        index
+    }
+
+    fn material(&mut self, (mesh, material): MeshUse) -> u32 {
+        let source = &self.scene.materials[material.index()];
+        let surroundings = self.surroundings(mesh, material);
+        if let Some(&known) = self.material_of.get(&(material, surroundings)) {
+            return known;
+        }
+        let texture = source.texture.filter(|_| surroundings.texcoords);
+        let diffuse_srgb = match surroundings.colors {
+            crate::material::VertexColors::None => source.diffuse_srgb,
+            // The vertices' colours multiply what is mixed.
+            _ => [1.0; 3],
+        };
+        let texture = texture.and_then(|id| self.textures.show(id, diffuse_srgb));
+        let index = self.materials.len() as u32;
+        self.materials
+            .push(GltfMaterial::new(material, source, surroundings, texture));
+        self.material_of.insert((material, surroundings), index);
+        index
+    }
+
+    fn surroundings(&self, mesh: MeshId, material: MaterialId) -> Surroundings {
+        let source = &self.scene.meshes[mesh.index()];
+        let facts = self.needs[mesh.index()]
+            .as_ref()
+            .map(|needs| needs.facts.colors);
+        Surroundings {
+            colors: facts.unwrap_or(crate::material::VertexColors::None),
+            texcoords: shows_texture(source, &self.scene.materials[material.index()]),
+            can_be_lit: can_be_lit(source),
+        }
+    }
+}

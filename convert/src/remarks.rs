@@ -1,0 +1,175 @@
+//! Finds the losses of a scene.
+
+use iv_parser::SourcePos;
+use scenegraph::scene::{
+    Faces, Instance, LightId, LightKind, Material, Scene, TextureModel, Topology, ViewportMapping,
+};
+
+use crate::frame::uniform_scale;
+use crate::loss::{LossKind, Losses};
+use crate::material::{GltfMaterial, VertexColors};
+
+/// Ambient light of Inventor's default environment on its default material. No more than this is
+/// missing in most models, and a viewer's own ambient light makes up for it.
+const UNNOTICED_AMBIENT: f64 = 0.2 * 0.2;
+/// Room for values that went through f32.
+const AMBIENT_TOLERANCE: f64 = 1e-6;
+
+/// Losses of one scene, found item by item.
+pub(crate) struct Remarks<'s> {
+    scene: &'s Scene,
+    losses: Losses,
+    /// By light set.
+    reached_by_all: Vec<bool>,
+}
+
+impl<'s> Remarks<'s> {
+    pub(crate) fn new(scene: &'s Scene) -> Self {
+        let reached_by_all = scene
+            .light_sets
+            .iter()
+            .map(|set| covers(set, scene.lights.len()));
+        Self {
+            scene,
+            losses: Losses::default(),
+            reached_by_all: reached_by_all.collect(),
+        }
+    }
+
+    pub(crate) fn into_losses(mut self) -> Vec<crate::Loss> {
+        self.lights();
+        self.cameras();
+        self.losses.into_sorted()
+    }
+
+    pub(crate) fn instance(
+        &mut self,
+        instance: &Instance,
+        written: &GltfMaterial,
+        colors: VertexColors,
+    ) {
+        let pos = instance.placement.pos;
+        let material = &self.scene.materials[instance.material.index()];
+        let material_pos = if material.pos.line > 0 {
+            material.pos
+        } else {
+            pos
+        };
+        let environment = &self.scene.environments[instance.environment.index()];
+        if let Some(fog) = &environment.fog {
+            self.losses
+                .add(LossKind::Fog, pos, || format!("{:?}", fog.fog_type));
+        }
+        if !written.unlit {
+            self.lit_instance(instance, material, material_pos);
+        }
+        self.texture(material, written, colors);
+        self.drawing_style(instance, material, material_pos);
+    }
+
+    fn lit_instance(&mut self, instance: &Instance, material: &Material, material_pos: SourcePos) {
+        let pos = instance.placement.pos;
+        if !self.reached_by_all[instance.light_set.index()] {
+            self.losses.add(LossKind::LightScope, pos, String::new);
+        }
+        let environment = &self.scene.environments[instance.environment.index()];
+        let ambient = |channel: usize| {
+            environment.ambient_intensity
+                * environment.ambient_color_srgb[channel]
+                * material.ambient_srgb[channel]
+        };
+        let ambient = (0..3).map(ambient).fold(0.0, f64::max);
+        if ambient > UNNOTICED_AMBIENT + AMBIENT_TOLERANCE {
+            self.losses.add(LossKind::AmbientLight, material_pos, || {
+                format!("{ambient:.2}")
+            });
+        }
+        let topology = self.scene.meshes[instance.mesh.index()].topology;
+        if topology == Topology::Triangles && material.faces == Faces::BothOneSidedLighting {
+            self.losses
+                .add(LossKind::OneSidedLighting, pos, String::new);
+        }
+    }
+
+    fn texture(&mut self, material: &Material, written: &GltfMaterial, colors: VertexColors) {
+        let (Some(id), Some(_)) = (material.texture, written.texture) else {
+            return;
+        };
+        let texture = &self.scene.textures[id.index()];
+        let approximated = match texture.model {
+            TextureModel::Modulate => false,
+            TextureModel::Blend => true,
+            // Over the colour, but not lit apart from it.
+            TextureModel::Decal if !written.unlit => true,
+            // A texture without alpha leaves the vertices' alpha as it is.
+            TextureModel::Decal | TextureModel::Replace => {
+                colors == VertexColors::Translucent && !written.reads_colors
+            }
+        };
+        if approximated {
+            let model = || format!("{:?}", texture.model).to_uppercase();
+            self.losses.add(LossKind::TextureModel, texture.pos, model);
+        }
+    }
+
+    fn drawing_style(&mut self, instance: &Instance, material: &Material, pos: SourcePos) {
+        // Inventor's default of 0 is one pixel, too.
+        let unusual = |size_px: f64| size_px != 0.0 && size_px != 1.0;
+        let topology = self.scene.meshes[instance.mesh.index()].topology;
+        let (width, size) = (material.line_width_px, material.point_size_px);
+        if topology == Topology::Lines && unusual(width) {
+            self.losses
+                .add(LossKind::LineWidth, pos, || format!("{width} pixels"));
+        }
+        if topology == Topology::Lines && material.line_pattern != 0xffff {
+            let pattern = || format!("{:#06x}", material.line_pattern);
+            self.losses.add(LossKind::LinePattern, pos, pattern);
+        }
+        if topology == Topology::Points && unusual(size) {
+            self.losses
+                .add(LossKind::PointSize, pos, || format!("{size} pixels"));
+        }
+    }
+
+    fn lights(&mut self) {
+        for light in &self.scene.lights {
+            let pos = light.placement.pos;
+            if let LightKind::Directional { .. } = light.kind {
+                continue;
+            }
+            let [a, b, c] = self.scene.environments[light.environment.index()].attenuation;
+            self.losses
+                .add(LossKind::LightAttenuation, pos, || format!("{a} {b} {c}"));
+            if let LightKind::Spot { drop_off_rate, .. } = light.kind {
+                self.losses
+                    .add(LossKind::SpotDropOff, pos, || drop_off_rate.to_string());
+            }
+        }
+    }
+
+    fn cameras(&mut self) {
+        for camera in &self.scene.cameras {
+            let pos = camera.placement.pos;
+            let mapping = match camera.viewport_mapping {
+                ViewportMapping::AdjustCamera => None,
+                ViewportMapping::CropViewport => Some("CROP_VIEWPORT"),
+                ViewportMapping::LeaveAlone => Some("LEAVE_ALONE"),
+            };
+            if let Some(mapping) = mapping {
+                self.losses
+                    .add(LossKind::ViewportMapping, pos, || mapping.to_owned());
+            }
+            if uniform_scale(&camera.placement.world_from_local.matrix3).is_none() {
+                self.losses.add(LossKind::CameraFrame, pos, String::new);
+            }
+        }
+    }
+}
+
+/// Whether the set holds each of `count` lights.
+fn covers(set: &[LightId], count: usize) -> bool {
+    let mut distinct = set.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    distinct.len() == count
+}

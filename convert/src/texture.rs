@@ -1,0 +1,279 @@
+//! Textures: opened only when something shows them, and stored once however often they are used.
+
+use std::hash::Hasher;
+use std::path::Path;
+
+use rustc_hash::{FxHashMap, FxHasher};
+use scenegraph::scene::{Scene, Texture, TextureId, TextureModel, TextureSource, Wrap};
+
+use crate::Warning;
+use crate::color::unit;
+use crate::image::{Alpha, Encoded, Mix};
+use crate::json::Json;
+
+/// The only way to files.
+pub trait TextureLoader {
+    /// The bytes of the image `name` (as written in the source), looked for first in the folder
+    /// `beside`; or why they are not to be had.
+    fn load(&self, beside: &Path, name: &str) -> Result<Vec<u8>, String>;
+}
+
+/// How a texture and a material make a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// Multiplies the shaded colour.
+    Multiply,
+    /// Is the surface: no colour, no light.
+    Replace,
+    /// Stands in place of the diffuse colour, and is lit.
+    Diffuse,
+}
+
+/// A texture that can be shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shown {
+    /// Index of the glTF texture.
+    pub(crate) index: u32,
+    pub(crate) role: Role,
+    pub(crate) alpha: Alpha,
+}
+
+struct Stored {
+    encoded: Encoded,
+    name: Option<String>,
+    /// Its index in the output, once something shows it.
+    image: Option<u32>,
+}
+
+struct GltfTexture {
+    image: u32,
+    sampler: u32,
+    source: TextureId,
+}
+
+/// All textures of a conversion.
+pub(crate) struct Textures<'s> {
+    scene: &'s Scene,
+    loader: &'s dyn TextureLoader,
+    stored: Vec<Stored>,
+    /// Candidates by hash of their bytes.
+    by_content: FxHashMap<u64, Vec<usize>>,
+    by_texture: FxHashMap<TextureId, Option<usize>>,
+    by_file: FxHashMap<(&'s Path, &'s str), Option<usize>>,
+    /// Positions in `stored`, in the order of the output.
+    images: Vec<usize>,
+    samplers: Vec<(Wrap, Wrap)>,
+    textures: Vec<GltfTexture>,
+    by_use: FxHashMap<(TextureId, usize), u32>,
+    mixed: FxHashMap<(usize, [u8; 3], Mix), Option<usize>>,
+    warnings: Vec<Warning>,
+}
+
+impl<'s> Textures<'s> {
+    pub(crate) fn new(scene: &'s Scene, loader: &'s dyn TextureLoader) -> Self {
+        Self {
+            scene,
+            loader,
+            stored: Vec::new(),
+            by_content: FxHashMap::default(),
+            by_texture: FxHashMap::default(),
+            by_file: FxHashMap::default(),
+            images: Vec::new(),
+            samplers: Vec::new(),
+            textures: Vec::new(),
+            by_use: FxHashMap::default(),
+            mixed: FxHashMap::default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    pub(crate) fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
+
+    pub(crate) fn image_count(&self) -> usize {
+        self.images.len()
+    }
+
+    /// Bytes of the image at `index` of the output.
+    pub(crate) fn image_bytes(&self, index: usize) -> &[u8] {
+        &self.stored[self.images[index]].encoded.bytes
+    }
+
+    /// The texture as a surface of colour `diffuse_srgb` shows it; `None` when its image is
+    /// missing or unreadable, which is then among the warnings.
+    pub(crate) fn show(&mut self, id: TextureId, diffuse_srgb: [f64; 3]) -> Option<Shown> {
+        let texture = &self.scene.textures[id.index()];
+        let plain = self.image_of(id, texture)?;
+        let opaque = self.stored[plain].encoded.alpha == Alpha::Opaque;
+        let (role, mix) = match texture.model {
+            TextureModel::Modulate => (Role::Multiply, None),
+            TextureModel::Replace => (Role::Replace, None),
+            // An opaque texture over a colour hides it: OpenGL's GL_DECAL without alpha.
+            TextureModel::Decal if opaque => (Role::Replace, None),
+            TextureModel::Decal => (Role::Diffuse, Some(Mix::Decal)),
+            TextureModel::Blend => {
+                let to = bytes_from_srgb(texture.blend_color_srgb);
+                (Role::Diffuse, Some(Mix::Blend(to)))
+            }
+        };
+        let shown = match mix {
+            None => plain,
+            Some(mix) => self.mixed(plain, bytes_from_srgb(diffuse_srgb), mix)?,
+        };
+        let alpha = self.stored[shown].encoded.alpha;
+        let index = self.use_texture(id, shown);
+        Some(Shown { index, role, alpha })
+    }
+
+    fn image_of(&mut self, id: TextureId, texture: &'s Texture) -> Option<usize> {
+        if let Some(&known) = self.by_texture.get(&id) {
+            return known;
+        }
+        let image = match &texture.source {
+            TextureSource::Inline(image) => match Encoded::from_inline(image) {
+                Ok(encoded) => Some(self.store(encoded, None)),
+                Err(reason) => self.warn("inline image", reason, texture),
+            },
+            TextureSource::File { name, beside } => self.file_image(beside, name, texture),
+        };
+        self.by_texture.insert(id, image);
+        image
+    }
+
+    fn file_image(&mut self, beside: &'s Path, name: &'s str, by: &Texture) -> Option<usize> {
+        if let Some(&known) = self.by_file.get(&(beside, name)) {
+            return known;
+        }
+        let read = self.loader.load(beside, name);
+        let image = match read.and_then(|bytes| Encoded::from_file(bytes, name)) {
+            Ok(encoded) => Some(self.store(encoded, Some(file_name(name)))),
+            Err(reason) => self.warn(name, reason, by),
+        };
+        self.by_file.insert((beside, name), image);
+        image
+    }
+
+    fn mixed(&mut self, plain: usize, color_srgb: [u8; 3], mix: Mix) -> Option<usize> {
+        let key = (plain, color_srgb, mix);
+        if let Some(&known) = self.mixed.get(&key) {
+            return known;
+        }
+        // Pixels that decoded once, or were encoded here, decode again.
+        let mixed = self.stored[plain].encoded.mixed_with(color_srgb, mix).ok();
+        let name = self.stored[plain].name.clone();
+        let image = mixed.map(|encoded| self.store(encoded, name));
+        self.mixed.insert(key, image);
+        image
+    }
+
+    fn warn(&mut self, name: &str, reason: String, by: &Texture) -> Option<usize> {
+        let name = name.to_owned();
+        self.warnings.push(Warning {
+            name,
+            reason,
+            pos: by.pos,
+        });
+        None
+    }
+
+    /// Keeps an image unless the same bytes are there already.
+    fn store(&mut self, encoded: Encoded, name: Option<String>) -> usize {
+        let mut hasher = FxHasher::default();
+        hasher.write(&encoded.bytes);
+        let candidates = self.by_content.entry(hasher.finish()).or_default();
+        let same = |&&i: &&usize| self.stored[i].encoded.bytes == encoded.bytes;
+        if let Some(&known) = candidates.iter().find(same) {
+            return known;
+        }
+        candidates.push(self.stored.len());
+        self.stored.push(Stored {
+            encoded,
+            name,
+            image: None,
+        });
+        self.stored.len() - 1
+    }
+
+    fn use_texture(&mut self, source: TextureId, stored: usize) -> u32 {
+        if let Some(&known) = self.by_use.get(&(source, stored)) {
+            return known;
+        }
+        let images = &mut self.images;
+        let image = *self.stored[stored].image.get_or_insert_with(|| {
+            images.push(stored);
+            (images.len() - 1) as u32
+        });
+        let texture = &self.scene.textures[source.index()];
+        let wraps = (texture.wrap_s, texture.wrap_t);
+        let sampler = self.samplers.iter().position(|&known| known == wraps);
+        let sampler = sampler.unwrap_or_else(|| {
+            self.samplers.push(wraps);
+            self.samplers.len() - 1
+        }) as u32;
+        let index = self.textures.len() as u32;
+        self.textures.push(GltfTexture {
+            image,
+            sampler,
+            source,
+        });
+        self.by_use.insert((source, stored), index);
+        index
+    }
+
+    /// `textures`, `images` and `samplers`; `view_of` gives the buffer view of an image.
+    pub(crate) fn write(&self, json: &mut Json, extras: bool, view_of: impl Fn(usize) -> u32) {
+        json.array_unless_empty("textures", &self.textures, |json, texture| {
+            json.object(|json| {
+                let source = &self.scene.textures[texture.source.index()];
+                if let Some(name) = &source.name {
+                    json.key("name").str(name);
+                }
+                json.key("sampler").u64(texture.sampler.into());
+                json.key("source").u64(texture.image.into());
+                if extras {
+                    crate::extras::texture(json, source);
+                }
+            });
+        });
+        json.array_unless_empty(
+            "images",
+            self.images.iter().enumerate(),
+            |json, (i, &stored)| {
+                json.object(|json| {
+                    if let Some(name) = &self.stored[stored].name {
+                        json.key("name").str(name);
+                    }
+                    json.key("bufferView").u64(view_of(i).into());
+                    json.key("mimeType").str(self.stored[stored].encoded.mime);
+                });
+            },
+        );
+        json.array_unless_empty("samplers", &self.samplers, |json, &(s, t)| {
+            json.object(|json| {
+                json.key("magFilter").u64(LINEAR);
+                json.key("minFilter").u64(LINEAR_MIPMAP_LINEAR);
+                for (key, wrap) in [("wrapS", s), ("wrapT", t)] {
+                    // Repeat is glTF's default.
+                    if wrap == Wrap::Clamp {
+                        json.key(key).u64(CLAMP_TO_EDGE);
+                    }
+                }
+            });
+        });
+    }
+}
+
+const LINEAR: u64 = 9729;
+const LINEAR_MIPMAP_LINEAR: u64 = 9987;
+const CLAMP_TO_EDGE: u64 = 33071;
+
+fn bytes_from_srgb(color_srgb: [f64; 3]) -> [u8; 3] {
+    color_srgb.map(|v| (unit(v) * 255.0).round() as u8)
+}
+
+/// The last part of a path written on any system.
+fn file_name(name: &str) -> String {
+    let parts = name.rsplit(['/', '\\']);
+    parts.into_iter().next().unwrap_or(name).to_owned()
+}

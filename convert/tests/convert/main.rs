@@ -1,0 +1,14 @@
+//! Scenes made by hand, converted, and read back by other code than wrote them.
+//!
+//! With `GLTF_DUMP=FOLDER` every converted scene is kept there, for the Khronos validator.
+
+mod containers;
+mod hierarchy;
+mod lights_cameras;
+mod losses;
+mod materials;
+mod meshes;
+mod read;
+mod scenes;
+mod size;
+mod textures;
