@@ -1,6 +1,8 @@
 //! `extras.iv`: Inventor's own values, which glTF has no place for. Names are those of Inventor's
 //! fields; a value equal to Inventor's default is left out.
 
+use std::f64::consts::FRAC_PI_4;
+
 use scenegraph::scene::{
     Camera, Environment, Faces, Fog, FogType, Light, LightKind, LightModel, Material, Scene,
     Texture, TextureModel, TextureSource, ViewportMapping,
@@ -93,7 +95,7 @@ pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
         } = light.kind
         {
             number(json, "dropOffRate", drop_off_rate, 0.0);
-            number(json, "cutOffAngle", cut_off_angle_rad, 0.785_398);
+            number(json, "cutOffAngle", cut_off_angle_rad, FRAC_PI_4);
         }
     });
 }

@@ -35,6 +35,8 @@ pub(crate) struct Encoded {
     pub(crate) bytes: Vec<u8>,
     pub(crate) mime: &'static str,
     pub(crate) alpha: Alpha,
+    /// How many there are.
+    pub(crate) pixels: u64,
 }
 
 /// How a texture meets a colour without lighting, for [`Encoded::mixed_with`].
@@ -52,17 +54,24 @@ impl Encoded {
         let Some(format) = sniff(&bytes, name) else {
             return Err("neither the content nor the name tells a known image format".to_owned());
         };
-        let mime = match format {
-            Format::Known(ImageFormat::Png) => "image/png",
-            Format::Known(ImageFormat::Jpeg) => "image/jpeg",
+        let (known, mime) = match format {
+            Format::Known(known @ ImageFormat::Png) => (known, "image/png"),
+            Format::Known(known @ ImageFormat::Jpeg) => (known, "image/jpeg"),
             _ => return Self::from_pixels(&decode(&bytes, format)?),
         };
-        let alpha = if has_alpha(&bytes, format)? {
+        let header = Header::read(&bytes, known)?;
+        let alpha = if header.has_alpha {
             alpha_of(&decode(&bytes, format)?)
         } else {
             Alpha::Opaque
         };
-        Ok(Self { bytes, mime, alpha })
+        let pixels = header.pixels;
+        Ok(Self {
+            bytes,
+            mime,
+            alpha,
+            pixels,
+        })
     }
 
     /// Takes an `SFImage`, whose rows go from bottom to top.
@@ -147,11 +156,11 @@ impl Encoded {
             }
         };
         written.map_err(|e| e.to_string())?;
-        let alpha = alpha_of(pixels);
         Ok(Self {
             bytes,
             mime: "image/png",
-            alpha,
+            alpha: alpha_of(pixels),
+            pixels: u64::from(width) * u64::from(height),
         })
     }
 }
@@ -188,20 +197,23 @@ fn reader(bytes: &[u8], format: ImageFormat) -> ImageReader<Cursor<&[u8]>> {
     reader
 }
 
-/// Reads the header only.
-fn has_alpha(bytes: &[u8], format: Format) -> Result<bool, String> {
-    match format {
-        Format::Known(format) => {
-            let decoder = reader(bytes, format)
-                .into_decoder()
-                .map_err(|e| e.to_string())?;
-            let (width, height) = decoder.dimensions();
-            limits()
-                .check_dimensions(width, height)
-                .map_err(|e| e.to_string())?;
-            Ok(decoder.color_type().has_alpha())
-        }
-        Format::Sgi => Ok(true),
+/// What an image says before its pixels.
+struct Header {
+    pixels: u64,
+    has_alpha: bool,
+}
+
+impl Header {
+    fn read(bytes: &[u8], format: ImageFormat) -> Result<Self, String> {
+        let decoder = reader(bytes, format).into_decoder();
+        let decoder = decoder.map_err(|e| e.to_string())?;
+        let (width, height) = decoder.dimensions();
+        let allowed = limits().check_dimensions(width, height);
+        allowed.map_err(|e| e.to_string())?;
+        Ok(Self {
+            pixels: u64::from(width) * u64::from(height),
+            has_alpha: decoder.color_type().has_alpha(),
+        })
     }
 }
 

@@ -18,6 +18,10 @@ pub trait TextureLoader {
     fn load(&self, beside: &Path, name: &str) -> Result<Vec<u8>, String>;
 }
 
+/// Most pixels mixed with colours in one conversion, about ten seconds' work: one texture under
+/// many colours is made anew for each.
+const MAX_MIXED_PIXELS: u64 = 1 << 28;
+
 /// How a texture and a material make a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
@@ -65,7 +69,8 @@ pub(crate) struct Textures<'s> {
     samplers: Vec<(Wrap, Wrap)>,
     textures: Vec<GltfTexture>,
     by_use: FxHashMap<(TextureId, usize), u32>,
-    mixed: FxHashMap<(usize, [u8; 3], Mix), Option<usize>>,
+    mixed: FxHashMap<(usize, [u8; 3], Mix), usize>,
+    mixed_pixels: u64,
     warnings: Vec<Warning>,
 }
 
@@ -83,6 +88,7 @@ impl<'s> Textures<'s> {
             textures: Vec::new(),
             by_use: FxHashMap::default(),
             mixed: FxHashMap::default(),
+            mixed_pixels: 0,
             warnings: Vec::new(),
         }
     }
@@ -119,7 +125,7 @@ impl<'s> Textures<'s> {
         };
         let shown = match mix {
             None => plain,
-            Some(mix) => self.mixed(plain, bytes_from_srgb(diffuse_srgb), mix)?,
+            Some(mix) => self.mixed(plain, bytes_from_srgb(diffuse_srgb), mix),
         };
         let alpha = self.stored[shown].encoded.alpha;
         let index = self.use_texture(id, shown);
@@ -154,15 +160,22 @@ impl<'s> Textures<'s> {
         image
     }
 
-    fn mixed(&mut self, plain: usize, color_srgb: [u8; 3], mix: Mix) -> Option<usize> {
+    /// The image mixed with a colour; the image itself once there have been too many of them.
+    fn mixed(&mut self, plain: usize, color_srgb: [u8; 3], mix: Mix) -> usize {
         let key = (plain, color_srgb, mix);
         if let Some(&known) = self.mixed.get(&key) {
             return known;
         }
-        // Pixels that decoded once, or were encoded here, decode again.
-        let mixed = self.stored[plain].encoded.mixed_with(color_srgb, mix).ok();
-        let name = self.stored[plain].name.clone();
-        let image = mixed.map(|encoded| self.store(encoded, name));
+        let Stored { encoded, name, .. } = &self.stored[plain];
+        self.mixed_pixels = self.mixed_pixels.saturating_add(encoded.pixels);
+        let affordable = self.mixed_pixels <= MAX_MIXED_PIXELS;
+        let mixed = affordable.then(|| encoded.mixed_with(color_srgb, mix));
+        let name = name.clone();
+        // A damaged file can have a sound header.
+        let image = match mixed {
+            Some(Ok(encoded)) => self.store(encoded, name),
+            Some(Err(_)) | None => plain,
+        };
         self.mixed.insert(key, image);
         image
     }

@@ -28,7 +28,7 @@ pub enum Remark {
     NoExponent,
 }
 
-const POWERS_OF_TEN: [f64; 23] = [
+pub(crate) const POWERS_OF_TEN: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
@@ -37,12 +37,12 @@ const POWERS_OF_TEN: [f64; 23] = [
 const LARGEST: f64 = f32::MAX as f64;
 
 #[inline(always)]
-fn byte(bytes: &[u8], at: usize) -> u8 {
+pub(crate) fn byte(bytes: &[u8], at: usize) -> u8 {
     bytes.get(at).copied().unwrap_or(0)
 }
 
 #[inline(always)]
-fn digits(bytes: &[u8], mut at: usize, mantissa: &mut u64) -> usize {
+pub(crate) fn digits(bytes: &[u8], mut at: usize, mantissa: &mut u64) -> usize {
     loop {
         let d = byte(bytes, at).wrapping_sub(b'0');
         if d > 9 {
@@ -54,7 +54,6 @@ fn digits(bytes: &[u8], mut at: usize, mantissa: &mut u64) -> usize {
 }
 
 /// The number at `at`, the position after it, and a remark; `None` if there is none.
-#[inline(always)]
 pub fn number(bytes: &[u8], start: usize) -> Option<(Number, usize, Remark)> {
     let sign = byte(bytes, start);
     let negative = sign == b'-';
@@ -240,5 +239,71 @@ pub fn octal_aware(token: &[u8]) -> i64 {
         value.wrapping_neg()
     } else {
         value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The standard library's parser is the judge of rounding.
+    #[test]
+    fn rounds_like_the_standard_library() {
+        let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut random = || {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            seed
+        };
+        for i in 0..200_000 {
+            let bits = random();
+            let text = match i % 4 {
+                0 => format!("{}", f32::from_bits(bits as u32)),
+                1 => format!("{:.6}", (bits >> 20) as f64 / 1e6),
+                2 => format!("{:e}", f64::from_bits(bits) % 1e30),
+                _ => format!("{}.{}", bits % 10_000_000, random()),
+            };
+            let expected: f64 = text.parse().unwrap();
+            if !expected.is_finite() || expected.abs() > LARGEST {
+                continue;
+            }
+            let Some((found, end, _)) = number(text.as_bytes(), 0) else {
+                panic!("{text}");
+            };
+            let found = match found {
+                Number::Int(v) => f64::from(v),
+                Number::Float(v) => v,
+            };
+            assert_eq!(end, text.len(), "{text}");
+            assert_eq!(found.to_bits(), expected.to_bits(), "{text}");
+        }
+    }
+
+    #[test]
+    fn tokens() {
+        use Remark as R;
+        let rows = [
+            ("12", Some((Number::Int(12), 2, R::None))),
+            ("-0", Some((Number::Int(0), 2, R::None))),
+            ("010", Some((Number::Int(10), 3, R::Octal))),
+            ("0x1Fg", Some((Number::Int(31), 4, R::None))),
+            ("2147483648", Some((Number::Float(2_147_483_648.0), 10, R::None))),
+            ("1.5.5", Some((Number::Float(1.5), 3, R::None))),
+            ("1.#IND00 ", Some((Number::Float(0.0), 8, R::NotANumber))),
+            ("1.#INFORM", Some((Number::Float(1.0), 2, R::None))),
+            ("1e+", Some((Number::Float(1.0), 2, R::NoExponent))),
+            ("-1e999", Some((Number::Float(-LARGEST), 6, R::Overflow))),
+            ("-", None),
+            (".", None),
+            (".e1", None),
+            ("", None),
+        ];
+        for (text, expected) in rows {
+            assert_eq!(number(text.as_bytes(), 0), expected, "{text}");
+        }
+        assert_eq!(octal_aware(b"010"), 8);
+        assert_eq!(octal_aware(b"-0x10"), -16);
+        assert_eq!(octal_aware(b"10"), 10);
     }
 }

@@ -1,1 +1,214 @@
-//! todo
+//! What is reported as lost.
+
+use convert::LossKind;
+use glam::{DAffine3, DVec3};
+use scenegraph::scene::{
+    Environment, EnvironmentId, Faces, Fog, FogType, LightKind, LightModel, LightSetId, Material,
+    Projection, ViewportMapping,
+};
+use serde_json::json;
+
+use crate::read::convert;
+use crate::scenes::{Build, at_line, lines, material, points, scale, triangle};
+
+const ID: DAffine3 = DAffine3::IDENTITY;
+
+fn two_shapes() -> Build {
+    let mut build = Build::one(triangle(), material());
+    build.shape(None, None, ID);
+    build
+}
+
+fn point() -> LightKind {
+    LightKind::Point { location: DVec3::X }
+}
+
+fn fog() -> Environment {
+    let fog = Fog {
+        fog_type: FogType::Haze,
+        color_srgb: [1.0, 0.0, 0.0],
+        visibility: 50.0,
+    };
+    Environment {
+        fog: Some(fog),
+        ..Environment::default()
+    }
+}
+
+#[test]
+fn each_loss_is_reported_once_with_its_count() {
+    use LossKind::*;
+    type Make = fn() -> Build;
+    let rows: [(&[(LossKind, u32)], Make); 14] = [
+        (&[], two_shapes),
+        (&[(Fog, 2)], || {
+            let mut build = two_shapes();
+            build.scene.environments[0] = fog();
+            build
+        }),
+        (&[(AmbientLight, 2)], || {
+            let mut build = two_shapes();
+            build.scene.environments[0].ambient_intensity = 1.0;
+            build
+        }),
+        (&[(AmbientLight, 1)], || {
+            let bright = Material {
+                ambient_srgb: [0.1, 0.9, 0.1],
+                ..material()
+            };
+            Build::one(triangle(), bright)
+        }),
+        (&[(LightScope, 1)], || {
+            let mut build = two_shapes();
+            build.light(
+                None,
+                ID,
+                LightKind::Directional {
+                    direction: DVec3::X,
+                },
+            );
+            build.scene.light_sets.push(Vec::new());
+            build.scene.instances[1].light_set = LightSetId(1);
+            build
+        }),
+        // Light does not matter to what is not lit.
+        (&[], || {
+            let unlit = Material {
+                light_model: LightModel::BaseColor,
+                faces: Faces::BothOneSidedLighting,
+                ..material()
+            };
+            let mut build = Build::one(triangle(), unlit);
+            build.light(
+                None,
+                ID,
+                LightKind::Directional {
+                    direction: DVec3::X,
+                },
+            );
+            build.scene.light_sets[0].clear();
+            build
+        }),
+        (&[(LightAttenuation, 2)], || {
+            let mut build = two_shapes();
+            build.light(None, ID, point());
+            build.light(None, ID, point());
+            build
+        }),
+        (&[(LightAttenuation, 1), (SpotDropOff, 1)], || {
+            let mut build = two_shapes();
+            build.light(
+                None,
+                ID,
+                LightKind::Spot {
+                    location: DVec3::X,
+                    direction: DVec3::Y,
+                    drop_off_rate: 0.5,
+                    cut_off_angle_rad: 0.5,
+                },
+            );
+            build
+        }),
+        (&[(OneSidedLighting, 1)], || {
+            let faces = Faces::BothOneSidedLighting;
+            Build::one(
+                triangle(),
+                Material {
+                    faces,
+                    ..material()
+                },
+            )
+        }),
+        (&[(LineWidth, 1), (LinePattern, 1)], || {
+            let dashed = Material {
+                line_width_px: 2.0,
+                line_pattern: 0xff00,
+                point_size_px: 3.0,
+                ..material()
+            };
+            Build::one(lines(), dashed)
+        }),
+        (&[(PointSize, 1)], || {
+            let dots = Material {
+                line_width_px: 2.0,
+                point_size_px: 3.0,
+                ..material()
+            };
+            Build::one(points(), dots)
+        }),
+        (&[], || {
+            let one = Material {
+                line_width_px: 1.0,
+                point_size_px: 1.0,
+                ..material()
+            };
+            let mut build = Build::one(points(), one.clone());
+            build.instance(None, None, ID, lines(), one);
+            build
+        }),
+        (&[(ViewportMapping, 1)], || {
+            let mut build = two_shapes();
+            build.camera(None, ID, Projection::Orthographic { height: 2.0 });
+            build.camera(None, ID, Projection::Orthographic { height: 2.0 });
+            build.scene.cameras[1].viewport_mapping = self::ViewportMapping::CropViewport;
+            build
+        }),
+        (&[(CameraFrame, 1)], || {
+            let mut build = two_shapes();
+            let stretch = scale(1.0, 2.0, 1.0);
+            build.camera(None, stretch, Projection::Orthographic { height: 2.0 });
+            build
+        }),
+    ];
+    for (want, make) in rows {
+        let report = convert(&make().scene).report;
+        let got: Vec<_> = report
+            .losses
+            .iter()
+            .map(|loss| (loss.kind, loss.count))
+            .collect();
+        assert_eq!(got, want);
+    }
+}
+
+#[test]
+fn a_loss_stands_where_its_cause_does() {
+    let wide = Material {
+        line_width_px: 4.5,
+        pos: at_line(33),
+        ..material()
+    };
+    let losses = convert(&Build::one(lines(), wide).scene).report.losses;
+    assert_eq!(
+        (losses[0].pos, &*losses[0].detail),
+        (at_line(33), "4.5 pixels")
+    );
+    // A material of defaults stands nowhere; its shape does.
+    let wide = Material {
+        line_width_px: 4.5,
+        ..material()
+    };
+    let losses = convert(&Build::one(lines(), wide).scene).report.losses;
+    assert_eq!(losses[0].pos, at_line(10));
+}
+
+#[test]
+fn environments_are_in_the_scenes_extras() {
+    let mut build = two_shapes();
+    build.scene.environments.push(Environment {
+        ambient_intensity: 0.5,
+        ambient_color_srgb: [0.0, 0.0, 1.0],
+        attenuation: [0.0, 1.0, 0.0],
+        ..fog()
+    });
+    build.scene.instances[1].environment = EnvironmentId(1);
+    let want = json!({"iv": {"environments": [{
+        "ambientIntensity": 0.5,
+        "ambientColor": [0, 0, 1],
+        "attenuation": [0, 1, 0],
+        "fogType": "HAZE",
+        "fogColor": [1, 0, 0],
+        "fogVisibility": 50,
+    }]}});
+    assert_eq!(convert(&build.scene).at("/scenes/0/extras"), &want);
+}

@@ -91,7 +91,6 @@ impl EarClipper {
             head: 0,
             cursor: 0,
             round: 0,
-            may_touch: false,
             has_progressed: false,
             steps: 0,
         };
@@ -111,8 +110,6 @@ struct Clipping<'a> {
     /// Where in the queue.
     cursor: usize,
     round: u32,
-    /// Whether diagonals may pass through other vertices: never needed in a simple polygon.
-    may_touch: bool,
     /// Whether a vertex was clipped since all were queued.
     has_progressed: bool,
     steps: u64,
@@ -133,9 +130,6 @@ impl Clipping<'_> {
             } else if self.has_progressed {
                 // Vertices that wait are told of most changes, but not of a change beside the
                 // vertex they wait for.
-                self.queue_all();
-            } else if !self.may_touch {
-                self.may_touch = true;
                 self.queue_all();
             } else {
                 end = Clipped::ByForce;
@@ -265,8 +259,8 @@ impl Clipping<'_> {
     /// It suffices to ask vertices that do not turn left: if the boundary enters the triangle
     /// at all, such a vertex is the one nearest to `b`. A vertex on the edges `a b` and `b c`
     /// is in the way only if the boundary goes on from there into the triangle, as it does
-    /// not along bridges. One at `a` or `c` never is: whatever enters there has its own
-    /// vertices inside.
+    /// not along bridges; one on the new edge `c a` always is. One at `a` or `c` never is:
+    /// whatever enters there has its own vertices inside.
     fn blocks(&self, v: u32, [a, b, c]: [DVec2; 3]) -> bool {
         if self.at(v).turn > 0 {
             return false;
@@ -279,14 +273,12 @@ impl Clipping<'_> {
         if ab < 0.0 || bc < 0.0 || ca < 0.0 {
             return false;
         }
-        if ca == 0.0 {
-            return !self.may_touch;
-        }
         let Vertex { prev, next, .. } = *self.at(v);
-        [prev, next].into_iter().any(|w| {
-            let q = self.point(w);
-            (ab > 0.0 || orient(a, b, q) > 0.0) && (bc > 0.0 || orient(b, c, q) > 0.0)
-        })
+        ca == 0.0
+            || [prev, next].into_iter().any(|w| {
+                let q = self.point(w);
+                (ab > 0.0 || orient(a, b, q) > 0.0) && (bc > 0.0 || orient(b, c, q) > 0.0)
+            })
     }
 
     /// Takes a vertex out of the ring.

@@ -163,3 +163,55 @@ fn is_box_outside(min: DVec2, max: DVec2, [a, b, c]: [DVec2; 3]) -> bool {
         orient(p, q, corner) < 0.0
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_rng::Rng;
+
+    #[test]
+    fn finds_an_active_point_if_there_is_one() {
+        let mut rng = Rng(13);
+        let mut tree = PointTree::default();
+        for round in 0..200 {
+            // Few values, so that points coincide and lie on edges.
+            let mut random_point = || {
+                (rng.vec3() * if round % 2 == 0 { 5.0 } else { 50.0 })
+                    .round()
+                    .truncate()
+            };
+            let points: Vec<DVec2> = (0..1 + round).map(|_| random_point()).collect();
+            let mut triangle = [random_point(), random_point(), random_point()];
+            let cross = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a);
+            if cross(triangle) < 0.0 {
+                triangle.reverse();
+            }
+            if cross(triangle) == 0.0 {
+                continue;
+            }
+            let [a, b, c] = triangle;
+            let is_inside = |i: u32| {
+                let p = points[i as usize];
+                cross([a, b, p]) >= 0.0 && cross([b, c, p]) >= 0.0 && cross([c, a, p]) >= 0.0
+            };
+            let mut active: Vec<bool> = points.iter().map(|p| p.x > 0.0).collect();
+            tree.build(&points, |i| active[i as usize]);
+            for i in 0..2 * points.len() {
+                let accept = |i: u32| active[i as usize] && is_inside(i);
+                let expected = (0..points.len() as u32).any(accept);
+                let mut steps = 0;
+                let found = tree.find_near(triangle, &mut steps, accept);
+                assert_eq!(found.is_some(), expected, "{triangle:?} {points:?}");
+                assert!(found.is_none_or(accept));
+                // Nothing active costs one look at the root.
+                assert!(steps > 0 && (active.contains(&true) || steps == 1));
+                // Activate all, then deactivate all.
+                let (i, on) = (i % points.len(), i < points.len());
+                if active[i] != on {
+                    active[i] = on;
+                    tree.set_active(i as u32, on);
+                }
+            }
+        }
+    }
+}

@@ -327,6 +327,11 @@ fn crossing_loops_are_told() {
                 .collect(),
             3,
         ),
+        // All ears, but round twice.
+        (
+            flat(&[(-4., -3.), (4., 1.), (4., -5.), (1., 0.), (4., -1.)]),
+            2,
+        ),
         // Two squares, one after the other, around the same centre.
         (
             flat(&[

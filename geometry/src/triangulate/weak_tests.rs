@@ -8,29 +8,34 @@ use std::collections::BTreeSet;
 
 type Point = (i32, i32);
 
-const SIZE: i32 = 12;
+const NEIGHBOURS: [Point; 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
-/// A connected set of cells, whose boundary touches itself in points only if it may.
-fn random_region(rng: &mut Rng, may_touch: bool) -> BTreeSet<Point> {
-    let mut cells = BTreeSet::from([(SIZE / 2, SIZE / 2)]);
-    let target = 2 + rng.below(90) as usize;
-    for _ in 0..2000 {
-        let all: Vec<Point> = cells.iter().copied().collect();
-        let (x, y) = all[rng.below(all.len() as u64) as usize];
-        let (dx, dy) = [(1, 0), (0, 1), (-1, 0), (0, -1)][rng.below(4) as usize];
-        let new = (x + dx, y + dy);
-        let in_range = |v: i32| (1..SIZE - 1).contains(&v);
-        if cells.len() < target
-            && in_range(new.0)
-            && in_range(new.1)
-            && cells.insert(new)
-            && !may_touch
-            && touches_itself(&cells, new)
-        {
-            cells.remove(&new);
+/// A square of cells with holes and dents eaten into it, connected by edges, and with a
+/// boundary that touches itself in points only if it may.
+fn random_region(rng: &mut Rng, size: i32, may_touch: bool) -> BTreeSet<Point> {
+    let mut cells: BTreeSet<Point> = (0..size * size).map(|i| (i % size, i / size)).collect();
+    for _ in 0..rng.below(size.pow(2) as u64) {
+        let cell = (rng.below(size as u64) as i32, rng.below(size as u64) as i32);
+        let existed = cells.remove(&cell);
+        let is_bad = !is_connected(&cells) || (!may_touch && touches_itself(&cells, cell));
+        if existed && is_bad {
+            cells.insert(cell);
         }
     }
     cells
+}
+
+fn is_connected(cells: &BTreeSet<Point>) -> bool {
+    let mut unseen = cells.clone();
+    let mut open: Vec<Point> = unseen.pop_first().into_iter().collect();
+    while let Some((x, y)) = open.pop() {
+        open.extend(
+            NEIGHBOURS
+                .into_iter()
+                .filter_map(|(dx, dy)| unseen.take(&(x + dx, y + dy))),
+        );
+    }
+    unseen.is_empty() && !cells.is_empty()
 }
 
 /// Whether two cells around `cell` meet in a corner only.
@@ -142,7 +147,13 @@ fn bridged_regions_are_covered() {
     let mut out = Vec::new();
     let mut hole_count = 0;
     for round in 0..2000 {
-        let cells = random_region(&mut rng, round % 3 == 0);
+        // Now and then one with hundreds of points.
+        let size = if round % 50 == 0 {
+            20
+        } else {
+            2 + rng.below(9) as i32
+        };
+        let cells = random_region(&mut rng, size, round % 3 == 0);
         let loops = boundaries(&cells);
         hole_count += loops.len() - 1;
         let mut points = bridged(loops);
@@ -180,33 +191,107 @@ fn bridged_regions_are_covered() {
             .sum();
         assert_eq!(twice_area, 2.0 * cells.len() as f64, "{points:?}");
     }
-    assert!(hole_count > 100, "{hole_count}");
+    assert!(hole_count > 2000, "{hole_count}");
 }
 
 #[test]
-fn a_hole_may_touch_a_corner() {
-    // The hole starts in the corner (0, 0) and crosses the diagonal that would cut it off; the
-    // bridge to it is elsewhere.
-    let loop_points = [
-        (0, 0),
-        (2, 0),
-        (10, 0),
-        (10, 10),
-        (6, 4),
-        (0, 0),
-        (4, 6),
-        (6, 4),
-        (10, 10),
-        (0, 10),
-        (0, 2),
+fn loops_may_touch_corners_and_edges() {
+    // The number of triangles is what it takes: where a loop parts the polygon, or its points
+    // lie in the middle of other edges, it is less than the number of points less two.
+    type Row<'a> = (&'a [Point], usize, f64);
+    let rows: [Row<'_>; 4] = [
+        // A hole that starts in the corner (0, 0) and crosses the diagonal that would cut the
+        // corner off; the bridge to it is elsewhere.
+        (
+            &[
+                (0, 0),
+                (2, 0),
+                (10, 0),
+                (10, 10),
+                (6, 4),
+                (0, 0),
+                (4, 6),
+                (6, 4),
+                (10, 10),
+                (0, 10),
+                (0, 2),
+            ],
+            7,
+            90.0,
+        ),
+        // A hole that touches the middle of the lowest edge.
+        (
+            &[
+                (0, 0),
+                (4, 0),
+                (4, 4),
+                (3, 2),
+                (2, 0),
+                (1, 2),
+                (3, 2),
+                (4, 4),
+                (0, 4),
+            ],
+            6,
+            14.0,
+        ),
+        // A bridge to one hole that runs along the edge of another, which hangs on it.
+        (
+            &[
+                (0, 0),
+                (10, 0),
+                (10, 10),
+                (0, 10),
+                (0, 5),
+                (7, 5),
+                (8, 6),
+                (8, 4),
+                (7, 5),
+                (5, 5),
+                (5, 3),
+                (3, 3),
+                (3, 5),
+                (0, 5),
+            ],
+            12,
+            95.0,
+        ),
+        // The same, with a bridge of its own.
+        (
+            &[
+                (0, 0),
+                (10, 0),
+                (10, 10),
+                (0, 10),
+                (0, 5),
+                (7, 5),
+                (8, 6),
+                (8, 4),
+                (7, 5),
+                (0, 5),
+                (3, 5),
+                (5, 5),
+                (5, 3),
+                (3, 3),
+                (3, 5),
+                (0, 5),
+            ],
+            12,
+            95.0,
+        ),
     ];
-    for start in 0..loop_points.len() {
-        let mut points = loop_points.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
-        points.rotate_left(start);
-        let mut out = Vec::new();
-        let outcome = Triangulator::new().triangulate(&points, &mut out);
-        assert_eq!(outcome, Outcome::Triangulated, "{points:?}");
-        // Two less than usual: the loop passes (0, 0) twice, which parts the polygon in two.
-        assert_eq!(check_cover(&points, &out), points.len() - 4);
+    for (loop_points, count, area) in rows {
+        let mut points: Vec<DVec3> = loop_points
+            .iter()
+            .map(|&(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0))
+            .collect();
+        for _ in 0..points.len() {
+            points.rotate_left(1);
+            let mut out = Vec::new();
+            let outcome = Triangulator::new().triangulate(&points, &mut out);
+            assert_eq!(outcome, Outcome::Triangulated, "{points:?}");
+            assert_eq!(check_cover(&points, &out), count, "{points:?}");
+            assert_eq!(newell_normal(&points).z, 2.0 * area);
+        }
     }
 }

@@ -6,6 +6,7 @@
 
 mod body;
 mod numbers;
+mod plain;
 mod recover;
 mod value;
 
@@ -303,3 +304,6 @@ impl<'a> Parser<'a> {
         });
     }
 }
+
+#[cfg(test)]
+mod tests;

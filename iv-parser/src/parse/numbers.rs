@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::Parser;
+use super::plain::{self, Stop};
 use crate::diagnostic::Severity;
 use crate::lex;
 use crate::number::{Number, Remark, number};
@@ -50,11 +51,11 @@ impl Parser<'_> {
         let mut end = self.at;
         let mut comma = false;
         loop {
-            let mut at = self.at;
-            while self.bytes.get(at).copied().is_some_and(lex::is_blank) {
-                at += 1;
-            }
-            self.at = at;
+            let stop = run.plain(self.bytes, self.at, comma, bracketed);
+            self.at = stop.at;
+            comma = stop.comma;
+            end = stop.end.unwrap_or(end);
+            let at = self.at;
             if let Some((value, after, remark)) = number(self.bytes, at) {
                 if remark != Remark::None {
                     octal |= remark == Remark::Octal;
@@ -219,6 +220,20 @@ pub(super) struct Run {
 }
 
 impl Run {
+    /// Reads plain numbers from `at` on.
+    fn plain(&mut self, bytes: &[u8], at: usize, comma: bool, commas: bool) -> Stop {
+        let stop = Stop {
+            at,
+            end: None,
+            comma,
+        };
+        if self.is_float {
+            plain::floats(bytes, stop, commas, &mut self.floats)
+        } else {
+            plain::ints(bytes, stop, commas, &mut self.ints)
+        }
+    }
+
     #[inline(always)]
     fn push(&mut self, value: Number) {
         match (self.is_float, value) {

@@ -74,11 +74,13 @@ pub(super) fn upgrade(node: &mut Node, old: &[OldValue], version: (u8, u8)) {
                 set(node, "orderedRGBA", FieldValue::Ints(swapped.into()));
             }
         }
-        Class::Material if version < (2, 0)
+        Class::Material
+            if version < (2, 0)
             // Without shininess the first Inventor drew no highlight.
-            && (node.entry("shininess").is_none() || node.number("shininess") == 0.0) => {
-                set(node, "specularColor", FieldValue::from_numbers(&[0.0; 3]));
-            }
+            && (node.entry("shininess").is_none() || node.number("shininess") == 0.0) =>
+        {
+            set(node, "specularColor", FieldValue::from_numbers(&[0.0; 3]));
+        }
         Class::ShapeHints => {
             if let Some(hints) = find("hints") {
                 shape_hints(node, hints);
