@@ -1,6 +1,6 @@
 //! Open Inventor to glTF 2.0.
 //!
-//! [`Scene`](scenegraph::scene::Scene) in, `.glb` or `.gltf` out. Two passes: a [`Plan`] decides
+//! [`Scene`] in, `.glb` or `.gltf` out. Two passes: a [`Plan`] decides
 //! everything and measures it, then the output is streamed from the scene's own arrays, so that
 //! memory holds little more than the scene and the JSON text.
 //!

@@ -9,7 +9,7 @@ use crate::bounds::Bounds;
 use crate::hierarchy::Hierarchy;
 use crate::json::Json;
 use crate::layout::{Layout, Needs};
-use crate::material::{GltfMaterial, Surroundings};
+use crate::material::{GltfMaterial, Surroundings, VertexColors};
 use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_texture};
 use crate::remarks::Remarks;
 use crate::texture::{TextureLoader, Textures};
@@ -249,7 +249,7 @@ impl<'s> Gathering<'s> {
         }
         let texture = source.texture.filter(|_| surroundings.texcoords);
         let diffuse_srgb = match surroundings.colors {
-            crate::material::VertexColors::None => source.diffuse_srgb,
+            VertexColors::None => source.diffuse_srgb,
             // The vertices' colours multiply what is mixed.
             _ => [1.0; 3],
         };
@@ -267,7 +267,7 @@ impl<'s> Gathering<'s> {
             .as_ref()
             .map(|needs| needs.facts.colors);
         Surroundings {
-            colors: facts.unwrap_or(crate::material::VertexColors::None),
+            colors: facts.unwrap_or(VertexColors::None),
             texcoords: shows_texture(source, &self.scene.materials[material.index()]),
             can_be_lit: can_be_lit(source),
         }

@@ -290,3 +290,47 @@ fn file_name(name: &str) -> String {
     let parts = name.rsplit(['/', '\\']);
     parts.into_iter().next().unwrap_or(name).to_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use iv_parser::SourcePos;
+    use scenegraph::scene::Image;
+    use std::sync::Arc;
+
+    struct NoFiles;
+
+    impl TextureLoader for NoFiles {
+        fn load(&self, _: &Path, _: &str) -> Result<Vec<u8>, String> {
+            Err("no files".to_owned())
+        }
+    }
+
+    #[test]
+    fn colours_beyond_the_budget_show_the_texture_as_it_is() {
+        let image = Image {
+            width: 2,
+            height: 1,
+            components: 1,
+            bytes: vec![0, 100],
+        };
+        let scene = Scene {
+            textures: vec![Texture {
+                name: None,
+                source: TextureSource::Inline(Arc::new(image)),
+                wrap_s: Wrap::Repeat,
+                wrap_t: Wrap::Repeat,
+                model: TextureModel::Blend,
+                blend_color_srgb: [1.0; 3],
+                pos: SourcePos::default(),
+            }],
+            ..Scene::default()
+        };
+        let mut textures = Textures::new(&scene, &NoFiles);
+        textures.mixed_pixels = MAX_MIXED_PIXELS - 4;
+        let colors = [0.0, 0.25, 0.5, 0.75, 0.25];
+        let shown = colors.map(|v| textures.show(TextureId(0), [v; 3]).map(|t| t.index));
+        assert_eq!(shown, [0, 1, 2, 2, 1].map(Some));
+        assert!(shown.len() > textures.image_count());
+    }
+}

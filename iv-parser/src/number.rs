@@ -288,7 +288,10 @@ mod tests {
             ("-0", Some((Number::Int(0), 2, R::None))),
             ("010", Some((Number::Int(10), 3, R::Octal))),
             ("0x1Fg", Some((Number::Int(31), 4, R::None))),
-            ("2147483648", Some((Number::Float(2_147_483_648.0), 10, R::None))),
+            (
+                "2147483648",
+                Some((Number::Float(2_147_483_648.0), 10, R::None)),
+            ),
             ("1.5.5", Some((Number::Float(1.5), 3, R::None))),
             ("1.#IND00 ", Some((Number::Float(0.0), 8, R::NotANumber))),
             ("1.#INFORM", Some((Number::Float(1.0), 2, R::None))),

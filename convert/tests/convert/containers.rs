@@ -144,6 +144,24 @@ fn a_failure_leaves_nothing_behind() {
         );
     }
     assert_eq!(fs::read(&old).unwrap(), b"old");
+    // The first .bin has its name already when the second finds a folder in its place.
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("m.1.bin")).unwrap();
+    let plain = Build::one(triangle(), material());
+    let halves = Options {
+        max_bin_bytes: 40,
+        ..gltf_bin()
+    };
+    assert!(
+        write_file(
+            &plain.scene,
+            &halves,
+            &images,
+            &folder.path().join("m.gltf")
+        )
+        .is_err()
+    );
+    assert_eq!(names_in(folder.path()), ["m.1.bin"]);
 }
 
 #[test]

@@ -161,6 +161,16 @@ fn numbers_of_a_plain_node_are_the_scenes_own() {
 }
 
 #[test]
+fn transforms_that_shear_only_together_stay_as_they_are() {
+    let mut build = Build::new();
+    let g = build.group(None, None, scale(1.0, 2.0, 3.0));
+    build.shape(Some(g), None, turn(DVec3::ONE, 0.4));
+    let nodes = convert(&build.scene).json["nodes"].clone();
+    assert_eq!(nodes[0], json!({"scale": [1, 2, 3], "children": [1]}));
+    assert_eq!(nodes[1]["scale"], json!(null));
+}
+
+#[test]
 fn a_sheared_group_keeps_its_name_outside_and_its_children_inside() {
     let mut build = Build::new();
     let shear = scale(1.0, 2.0, 3.0) * turn(DVec3::ONE, 0.4);

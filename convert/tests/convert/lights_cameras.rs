@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use glam::{DAffine3, DQuat, DVec3};
-use scenegraph::scene::{Camera, Environment, LightKind, Projection, ViewportMapping};
+use scenegraph::scene::{Camera, Environment, LightKind, Mesh, Projection, ViewportMapping};
 use serde_json::{Value, json};
 
 use crate::read::{Converted, convert};
-use crate::scenes::{Build, scale, shift, turn};
+use crate::scenes::{Build, material, scale, shift, triangle, turn};
 
 const DOWN: LightKind = LightKind::Directional {
     direction: DVec3::NEG_Y,
@@ -87,6 +87,17 @@ fn the_reference_distance_is_in_the_world() {
         .as_f64()
         .unwrap();
     assert!((got - 25.0 * PI).abs() < 1e-4, "{got}");
+    // A mesh's own origin counts: the centre is at x = 50.
+    let far = Mesh {
+        origin: DVec3::new(49.5, -0.5, 0.0),
+        ..triangle()
+    };
+    let mut build = Build::one(far, material());
+    build.light(None, DAffine3::IDENTITY, point(40.0));
+    let got = light(&convert(&build.scene), 0)["intensity"]
+        .as_f64()
+        .unwrap();
+    assert!((got - 100.0 * PI).abs() < 1e-4, "{got}");
     // Without a scene there is no centre.
     let mut build = Build::new();
     build.light(None, DAffine3::IDENTITY, point(5000.0));

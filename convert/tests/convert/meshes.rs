@@ -165,6 +165,25 @@ fn one_mesh_in_two_materials_shares_its_accessors() {
 }
 
 #[test]
+fn a_mesh_holds_what_any_of_its_materials_reads() {
+    let unlit = Material {
+        light_model: LightModel::BaseColor,
+        ..material()
+    };
+    for pair in [[material(), unlit.clone()], [unlit, material()]] {
+        let mut build = Build::new();
+        for material in &pair {
+            build.instance(None, None, DAffine3::IDENTITY, triangle(), material.clone());
+        }
+        let want = pair.map(|material| match material.light_model {
+            LightModel::Phong => vec!["NORMAL", "POSITION"],
+            LightModel::BaseColor => vec!["POSITION"],
+        });
+        assert_eq!(attributes(&convert(&build.scene)), want);
+    }
+}
+
+#[test]
 fn indices_are_as_narrow_as_restart_allows_and_left_out_when_they_count_up() {
     let with = |vertices: usize, indices: Vec<u32>| Mesh {
         positions: (0..vertices).map(|i| [i as f32, 0.0, 0.0]).collect(),

@@ -1,8 +1,7 @@
 //! Ear clipping of weakly simple polygons, exact and in near-linear time for usual input.
 //!
 //! Source: Meisters, *Polygons have ears* (1975); the treatment of bridges and coincident
-//! points follows Held, *FIST* (2001), but decides by exact predicates. A corner that is no
-//! ear waits for the point that is in its way, so it is not tested again in vain.
+//! points follows Held, *FIST* (2001), but decides by exact predicates.
 
 use super::plane::orient;
 use super::point_tree::PointTree;
@@ -42,12 +41,6 @@ struct Vertex {
     /// As in [`Ring`]. Vertices that do not turn left can be in the way of others; clipped
     /// ones are marked as turning left.
     turn: i8,
-    /// The vertex in the way of this one, and the list of all that wait for the same.
-    waits_for: u32,
-    wait_prev: u32,
-    wait_next: u32,
-    /// The head of the list of vertices that wait for this one.
-    waiting: u32,
 }
 
 /// Scratch memory of the clipping.
@@ -71,10 +64,6 @@ impl EarClipper {
             touched: 0,
             is_queued: false,
             turn: ring.turns[i as usize],
-            waits_for: NONE,
-            wait_prev: NONE,
-            wait_next: NONE,
-            waiting: NONE,
         }));
         self.next_queue.clear();
         let has_tree = ring.len() >= TREE_MIN_LEN;
@@ -128,8 +117,8 @@ impl Clipping<'_> {
             if let Some(b) = self.pop() {
                 self.visit(b);
             } else if self.has_progressed {
-                // Vertices that wait are told of most changes, but not of a change beside the
-                // vertex they wait for.
+                // Corners are tested again when a neighbour is clipped; whether something else
+                // left their way shows only now.
                 self.queue_all();
             } else {
                 end = Clipped::ByForce;
@@ -207,51 +196,31 @@ impl Clipping<'_> {
         }
     }
 
-    /// Clips a vertex if it is an ear or encloses nothing; otherwise lets it wait.
+    /// Clips a vertex if it is an ear.
     fn visit(&mut self, b: u32) {
-        self.stop_waiting(b);
-        let Vertex {
-            prev: a,
-            next: c,
-            turn,
-            ..
-        } = *self.at(b);
-        if turn < 0 {
-            return;
-        }
-        if turn == 0 {
-            if is_void(self.point(a), self.point(b), self.point(c)) {
-                self.remove(b);
-            }
-            return;
-        }
-        match self.find_blocker(b) {
-            Some(blocker) => self.wait(b, blocker),
-            None => {
-                self.emit([a, b, c]);
-                self.remove(b);
-            }
+        if self.at(b).turn > 0 && !self.is_blocked(b) {
+            self.clip(b);
         }
     }
 
-    /// Some vertex that keeps a left-turning corner from being an ear.
-    fn find_blocker(&mut self, b: u32) -> Option<u32> {
+    /// Whether some vertex keeps a left-turning corner from being an ear.
+    fn is_blocked(&mut self, b: u32) -> bool {
         let Vertex {
             prev: a, next: c, ..
         } = *self.at(b);
         let corner = [a, b, c].map(|v| self.point(v));
         let mut steps = 0;
-        let found = if self.has_tree && self.remaining >= TREE_MIN_LEN {
+        let is_blocked = if self.has_tree && self.remaining >= TREE_MIN_LEN {
             let blocks = |v| self.blocks(v, corner);
-            self.scratch.tree.find_near(corner, &mut steps, blocks)
+            self.scratch.tree.any_near(corner, &mut steps, blocks)
         } else {
             steps = self.remaining as u64;
             std::iter::successors(Some(self.at(c).next), |&v| Some(self.at(v).next))
                 .take_while(|&v| v != a)
-                .find(|&v| self.blocks(v, corner))
+                .any(|v| self.blocks(v, corner))
         };
         self.steps += steps;
-        found
+        is_blocked
     }
 
     /// Whether a vertex is in the way of cutting off the triangle of a left-turning corner.
@@ -274,11 +243,42 @@ impl Clipping<'_> {
             return false;
         }
         let Vertex { prev, next, .. } = *self.at(v);
-        ca == 0.0
-            || [prev, next].into_iter().any(|w| {
-                let q = self.point(w);
-                (ab > 0.0 || orient(a, b, q) > 0.0) && (bc > 0.0 || orient(b, c, q) > 0.0)
-            })
+        [prev, next].into_iter().any(|w| {
+            let q = self.point(w);
+            (ab > 0.0 || orient(a, b, q) > 0.0) && (bc > 0.0 || orient(b, c, q) > 0.0)
+        })
+    }
+
+    /// Emits the triangle of a vertex and removes it, and then what encloses nothing. That
+    /// must not wait: both edges of a spike can look like the sides of an ear.
+    fn clip(&mut self, b: u32) {
+        let Vertex {
+            prev: mut a,
+            next: mut c,
+            ..
+        } = *self.at(b);
+        self.emit([a, b, c]);
+        self.remove(b);
+        while self.remaining >= 3 {
+            if self.is_void(a) {
+                let before = self.at(a).prev;
+                self.remove(a);
+                a = before;
+            } else if self.is_void(c) {
+                let after = self.at(c).next;
+                self.remove(c);
+                c = after;
+            } else {
+                break;
+            }
+        }
+    }
+
+    fn is_void(&self, v: u32) -> bool {
+        let Vertex {
+            prev, next, turn, ..
+        } = *self.at(v);
+        turn == 0 && is_void(self.point(prev), self.point(v), self.point(next))
     }
 
     /// Takes a vertex out of the ring.
@@ -298,13 +298,12 @@ impl Clipping<'_> {
             self.at_mut(v).touched = round;
             let Vertex { prev, next, .. } = *self.at(v);
             self.set_turn(v, turn(self.point(prev), self.point(v), self.point(next)));
-            if self.at(v).turn >= 0 {
+            if self.at(v).turn > 0 {
                 self.enqueue(v);
             }
         }
     }
 
-    /// Changes a vertex's turn, and wakes those it no longer is in the way of.
     fn set_turn(&mut self, v: u32, turn: i8) {
         let was_in_the_way = self.at(v).turn <= 0;
         let is_in_the_way = turn <= 0;
@@ -312,45 +311,6 @@ impl Clipping<'_> {
         if self.has_tree && was_in_the_way != is_in_the_way {
             self.scratch.tree.set_active(v, is_in_the_way);
         }
-        if !is_in_the_way {
-            while self.at(v).waiting != NONE {
-                let waiting = self.at(v).waiting;
-                self.stop_waiting(waiting);
-                self.enqueue(waiting);
-            }
-        }
-    }
-
-    fn wait(&mut self, v: u32, blocker: u32) {
-        let first = self.at(blocker).waiting;
-        if first != NONE {
-            self.at_mut(first).wait_prev = v;
-        }
-        let vertex = self.at_mut(v);
-        vertex.waits_for = blocker;
-        vertex.wait_prev = NONE;
-        vertex.wait_next = first;
-        self.at_mut(blocker).waiting = v;
-    }
-
-    fn stop_waiting(&mut self, v: u32) {
-        let Vertex {
-            waits_for,
-            wait_prev,
-            wait_next,
-            ..
-        } = *self.at(v);
-        if waits_for == NONE {
-            return;
-        }
-        match wait_prev {
-            NONE => self.at_mut(waits_for).waiting = wait_next,
-            w => self.at_mut(w).wait_next = wait_next,
-        }
-        if wait_next != NONE {
-            self.at_mut(wait_next).wait_prev = wait_prev;
-        }
-        self.at_mut(v).waits_for = NONE;
     }
 
     /// Cuts off the next left-turning corner, whatever is in the way. False if there is none.
@@ -358,19 +318,12 @@ impl Clipping<'_> {
         let mut b = self.head;
         for _ in 0..self.remaining {
             self.steps += 1;
-            let Vertex {
-                prev: a,
-                next: c,
-                turn,
-                ..
-            } = *self.at(b);
+            let Vertex { next, turn, .. } = *self.at(b);
             if turn > 0 {
-                self.emit([a, b, c]);
-                self.stop_waiting(b);
-                self.remove(b);
+                self.clip(b);
                 return true;
             }
-            b = c;
+            b = next;
         }
         false
     }

@@ -1,5 +1,5 @@
-//! A k-d tree over points of the plane, some of them active, that finds an active point in a
-//! triangle. The points are fixed; activity changes.
+//! A k-d tree over points of the plane, some of them active, that tells whether one is
+//! in a triangle. The points are fixed; activity changes.
 //!
 //! A tree rather than a grid: its cost does not depend on how the points are spread.
 
@@ -111,15 +111,15 @@ impl PointTree {
         }
     }
 
-    /// The first point of the boxes near a counter-clockwise triangle for which `accept` is
-    /// true. It is asked about inactive points and points outside as well. Adds the nodes and
-    /// points looked at to `steps`.
-    pub(super) fn find_near(
+    /// Whether `accept` is true of a point in a counter-clockwise triangle. It is asked about
+    /// points near the triangle, inactive ones included. Adds the nodes and points looked at
+    /// to `steps`.
+    pub(super) fn any_near(
         &self,
         triangle: [DVec2; 3],
         steps: &mut u64,
         mut accept: impl FnMut(u32) -> bool,
-    ) -> Option<u32> {
+    ) -> bool {
         let leaf_count = self.nodes.len() / 2;
         // Of each level at most one node waits, and of the last two.
         let mut waiting = [0_usize; MAX_LEVELS + 1];
@@ -141,11 +141,11 @@ impl PointTree {
             }
             let members = &self.order[node.start as usize..node.end as usize];
             *steps += members.len() as u64;
-            if let Some(&found) = members.iter().find(|&&i| accept(i)) {
-                return Some(found);
+            if members.iter().any(|&i| accept(i)) {
+                return true;
             }
         }
-        None
+        false
     }
 }
 
@@ -196,14 +196,13 @@ mod tests {
             };
             let mut active: Vec<bool> = points.iter().map(|p| p.x > 0.0).collect();
             tree.build(&points, |i| active[i as usize]);
-            for i in 0..2 * points.len() {
+            for i in 0..=2 * points.len() {
                 let accept = |i: u32| active[i as usize] && is_inside(i);
                 let expected = (0..points.len() as u32).any(accept);
                 let mut steps = 0;
-                let found = tree.find_near(triangle, &mut steps, accept);
-                assert_eq!(found.is_some(), expected, "{triangle:?} {points:?}");
-                assert!(found.is_none_or(accept));
-                // Nothing active costs one look at the root.
+                let found = tree.any_near(triangle, &mut steps, accept);
+                assert_eq!(found, expected, "{triangle:?} {points:?}");
+                // With nothing active it costs one look at the root.
                 assert!(steps > 0 && (active.contains(&true) || steps == 1));
                 // Activate all, then deactivate all.
                 let (i, on) = (i % points.len(), i < points.len());

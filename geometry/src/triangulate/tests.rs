@@ -176,7 +176,7 @@ fn flat_slivers_turn_the_right_way() {
     // f64 cannot show, not even its sign.
     let mut rng = Rng(12);
     for round in 0..200 {
-        let k = 3 + rng.below(20) as usize;
+        let k = 3 + rng.below(300) as usize;
         let lower: Vec<[i64; 2]> = (0..k)
             .map(|i| {
                 [

@@ -285,8 +285,13 @@ fn loops_may_touch_corners_and_edges() {
             .iter()
             .map(|&(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0))
             .collect();
-        for _ in 0..points.len() {
+        for turn in 0..2 * points.len() {
             points.rotate_left(1);
+            if turn == points.len() {
+                // The mirror image, its order reversed to be counter-clockwise again.
+                points.reverse();
+                points.iter_mut().for_each(|p| p.x = -p.x);
+            }
             let mut out = Vec::new();
             let outcome = Triangulator::new().triangulate(&points, &mut out);
             assert_eq!(outcome, Outcome::Triangulated, "{points:?}");

@@ -40,15 +40,29 @@ fn field(tree: &Tree<'_>, id: crate::FieldId, out: &mut String) {
     write!(out, "{}=", text_of(field.name)).unwrap();
     match &field.value {
         Value::Missing => {}
-        Value::Numbers { numbers, bracketed, .. } => {
+        Value::Numbers {
+            numbers, bracketed, ..
+        } => {
             let list: Vec<String> = match numbers {
-                Numbers::Ints(..) | Numbers::ManyInts(_) => {
-                    tree.ints(numbers).unwrap().iter().map(ToString::to_string).collect()
-                }
-                _ => tree.floats(numbers).unwrap().iter().map(|v| format!("{v:?}")).collect(),
+                Numbers::Ints(..) | Numbers::ManyInts(_) => tree
+                    .ints(numbers)
+                    .unwrap()
+                    .iter()
+                    .map(ToString::to_string)
+                    .collect(),
+                _ => tree
+                    .floats(numbers)
+                    .unwrap()
+                    .iter()
+                    .map(|v| format!("{v:?}"))
+                    .collect(),
             };
             let list = list.join(",");
-            out.push_str(&if *bracketed { format!("[{list}]") } else { list });
+            out.push_str(&if *bracketed {
+                format!("[{list}]")
+            } else {
+                list
+            });
         }
         Value::Mask(range) => {
             let words: Vec<String> = tree.atoms(*range).iter().map(|a| atom(tree, a)).collect();
@@ -57,7 +71,11 @@ fn field(tree: &Tree<'_>, id: crate::FieldId, out: &mut String) {
         Value::Atoms { atoms, bracketed } => {
             let list: Vec<String> = tree.atoms(*atoms).iter().map(|a| atom(tree, a)).collect();
             let list = list.join(",");
-            out.push_str(&if *bracketed { format!("[{list}]") } else { list });
+            out.push_str(&if *bracketed {
+                format!("[{list}]")
+            } else {
+                list
+            });
         }
     }
     if field.ignored {
@@ -100,22 +118,66 @@ fn check(rows: &[(&str, &str, &[&str])]) {
 fn well_formed() {
     check(&[
         ("Cube{width 2height 3}", "Cube{width=2 height=3}", &[]),
-        ("Cube { width 2#c\nheight .5 }", "Cube{width=2 height=0.5}", &[]),
-        ("Cube { width 2 } # c\r Sphere{}", "Cube{width=2} Sphere{}", &[]),
+        (
+            "Cube { width 2#c\nheight .5 }",
+            "Cube{width=2 height=0.5}",
+            &[],
+        ),
+        (
+            "Cube { width 2 } # c\r Sphere{}",
+            "Cube{width=2} Sphere{}",
+            &[],
+        ),
         ("DEF A+1 Cube { } USE A+1", "A+1:Cube{} USE:A+1", &[]),
         ("A { f [ 1 2, 3 4 , ] }", "A{f=[1,2,3,4]}", &[]),
         ("A { f [ 1, 2.5, -3 ] }", "A{f=[1.0,2.5,-3.0]}", &[]),
         ("A { f [] g 1 ~ h ~ }", "A{f=[] g=1~ h=~}", &[]),
-        ("A { p (SIDES | TOP) q ( ) r X | Y }", "A{p=(SIDES|TOP) q=() r=(X|Y)}", &[]),
-        ("A { s \"x\\\"y\n}\" t [ \"a\" \"b\", \"c\" ] }", "A{s=\"x\\\"y\n}\" t=[\"a\",\"b\",\"c\"]}", &[]),
-        ("A { n Cube { width 1 } m [ Cube{}, USE x NULL ] k NULL }", "A{n=Cube{width=1} m=[Cube{},USE:x,NULL] k=NULL}", &[]),
-        ("A { on TRUE Cube { } B { x ON } }", "A{on=TRUE Cube{} B{x=ON}}", &[]),
-        ("A { t 1 2 3 = DEF e E { } . out u = USE e.in }", "A{t=1,2,3<e:E{}.out> u=<USE:e.in>}", &[]),
+        (
+            "A { p (SIDES | TOP) q ( ) r X | Y }",
+            "A{p=(SIDES|TOP) q=() r=(X|Y)}",
+            &[],
+        ),
+        (
+            "A { s \"x\\\"y\n}\" t [ \"a\" \"b\", \"c\" ] }",
+            "A{s=\"x\\\"y\n}\" t=[\"a\",\"b\",\"c\"]}",
+            &[],
+        ),
+        (
+            "A { n Cube { width 1 } m [ Cube{}, USE x NULL ] k NULL }",
+            "A{n=Cube{width=1} m=[Cube{},USE:x,NULL] k=NULL}",
+            &[],
+        ),
+        (
+            "A { on TRUE Cube { } B { x ON } }",
+            "A{on=TRUE Cube{} B{x=ON}}",
+            &[],
+        ),
+        (
+            "A { t 1 2 3 = DEF e E { } . out u = USE e.in }",
+            "A{t=1,2,3<e:E{}.out> u=<USE:e.in>}",
+            &[],
+        ),
         ("A { a.b C { } }", "A{a.b=C{}}", &[]),
-        ("Foo { fields [ SFFloat x, MFNode kids ] x 1 }", "Foo{fields=[SFFloat,x,MFNode,kids] x=1}", &[]),
-        ("F { name armar/hands/x-1.iv }", "F{name=armar/hands/x-1.iv}", &[]),
-        ("A { i 0xff j 0XFF000080 k -2147483648 l 4294967295 }", "A{i=255 j=4278190208.0 k=-2147483648 l=4294967295.0}", &[]),
-        ("A { x +1 y 1e1 z 1E+2 w 5. v -.5e-1 }", "A{x=1 y=10.0 z=100.0 w=5.0 v=-0.05}", &[]),
+        (
+            "Foo { fields [ SFFloat x, MFNode kids ] x 1 }",
+            "Foo{fields=[SFFloat,x,MFNode,kids] x=1}",
+            &[],
+        ),
+        (
+            "F { name armar/hands/x-1.iv }",
+            "F{name=armar/hands/x-1.iv}",
+            &[],
+        ),
+        (
+            "A { i 0xff j 0XFF000080 k -2147483648 l 4294967295 }",
+            "A{i=255 j=4278190208.0 k=-2147483648 l=4294967295.0}",
+            &[],
+        ),
+        (
+            "A { x +1 y 1e1 z 1E+2 w 5. v -.5e-1 }",
+            "A{x=1 y=10.0 z=100.0 w=5.0 v=-0.05}",
+            &[],
+        ),
         ("", "", &[]),
     ]);
 }
@@ -124,27 +186,67 @@ fn well_formed() {
 fn recovers() {
     check(&[
         ("Label{label hello}", "Label{label=hello}", &[]),
-        ("A { f [ 0 0 0,,1 0 0 ] }", "A{f=[0,0,0,1,0,0]}", &["stray-comma"]),
+        (
+            "A { f [ 0 0 0,,1 0 0 ] }",
+            "A{f=[0,0,0,1,0,0]}",
+            &["stray-comma"],
+        ),
         ("A { f [ , 1 ] }", "A{f=[1]}", &["stray-comma"]),
         ("A { f 1 2, 3 4 }", "A{f=1,2,3,4}", &["no-brackets"]),
-        ("A { f [ 1 2 g 3 }", "A{f=[1,2,3]}", &["not-a-number", "missing-bracket"]),
-        ("A { f [ 1 2 g [ 3 ] }", "A{f=[1,2] g=[3]}", &["missing-bracket"]),
+        (
+            "A { f [ 1 2 g 3 }",
+            "A{f=[1,2,3]}",
+            &["not-a-number", "missing-bracket"],
+        ),
+        (
+            "A { f [ 1 2 g [ 3 ] }",
+            "A{f=[1,2] g=[3]}",
+            &["missing-bracket"],
+        ),
         ("A { f [ 1 2 } B {}", "A{f=[1,2]} B{}", &["missing-bracket"]),
         ("A { f [ 1 x 2 ] }", "A{f=[1,2]}", &["not-a-number"]),
-        ("A { w 1.#QNAN h 3 } B {}", "A{w=0.0 h=3} B{}", &["not-a-number"]),
-        ("A { w [ nan -INF 2 ] }", "A{w=[0.0,0.0,2.0]}", &["not-a-number"]),
-        ("A { w 1e40 h 1e }", "A{w=3.4028234663852886e38 h=1.0}", &["overflow", "bad-exponent"]),
+        (
+            "A { w 1.#QNAN h 3 } B {}",
+            "A{w=0.0 h=3} B{}",
+            &["not-a-number"],
+        ),
+        (
+            "A { w [ nan -INF 2 ] }",
+            "A{w=[0.0,0.0,2.0]}",
+            &["not-a-number"],
+        ),
+        (
+            "A { w 1e40 h 1e }",
+            "A{w=3.4028234663852886e38 h=1.0}",
+            &["overflow", "bad-exponent"],
+        ),
         ("A { B {} ", "A{B{}}", &["missing-brace"]),
         ("A {} } B {}", "A{} B{}", &["extra-brace"]),
         ("A { f }", "A{f=}", &["no-value"]),
         ("A { 1 2 B {} }", "A{B{}}", &["stray-value", "stray-value"]),
-        ("A { s \"C:\\tex\\\" } B {}", "A{s=\"C:\\tex\\\"} B{}", &["unclosed-string"]),
-        ("A { s \"abc\n t 1 }", "A{s=\"abc\" t=1}", &["unclosed-string"]),
+        (
+            "A { s \"C:\\tex\\\" } B {}",
+            "A{s=\"C:\\tex\\\"} B{}",
+            &["unclosed-string"],
+        ),
+        (
+            "A { s \"abc\n t 1 }",
+            "A{s=\"abc\" t=1}",
+            &["unclosed-string"],
+        ),
         ("A { p (X } B {}", "A{p=(X)} B{}", &["missing-paren"]),
-        ("A { t 1 = 5 u 2 }", "A{t=1 u=2}", &["bad-connection", "stray-value"]),
+        (
+            "A { t 1 = 5 u 2 }",
+            "A{t=1 u=2}",
+            &["bad-connection", "stray-value"],
+        ),
         ("DEF A } B {}", "NULL B{}", &["bad-def", "extra-brace"]),
         ("{ Cube {} }", "{Cube{}}", &["no-class"]),
-        ("DEF a{ Cube{} USE a{ USE b}", "a{:Cube{} USE:a{ USE:b", &["extra-brace"]),
+        (
+            "DEF a{ Cube{} USE a{ USE b}",
+            "a{:Cube{} USE:a{ USE:b",
+            &["extra-brace"],
+        ),
     ]);
 }
 
@@ -153,7 +255,10 @@ fn headers() {
     let rows: [(&[u8], &[&str]); 6] = [
         (b"#Inventor V2.1 ascii\nCube{}", &[]),
         (b"#VRML V1.0 ascii  extra\nCube{}", &[]),
-        (b"\xef\xbb\xbf#Inventor V2.0 ascii\nCube{}", &["byte-order-mark"]),
+        (
+            b"\xef\xbb\xbf#Inventor V2.0 ascii\nCube{}",
+            &["byte-order-mark"],
+        ),
         (b" \n#Inventor V1.0 ascii\nCube{}", &["late-header"]),
         (b"Cube{}", &["no-header"]),
         (b"#Inventor V3.7 ascii\nCube{}", &["unknown-version"]),
@@ -172,9 +277,21 @@ fn long_lists_turn_into_floats_late() {
     (0..1000).for_each(|i| write!(text, "{i}, ").unwrap());
     text.push_str("0.5 1e3 010 ] }");
     let parsed = parse(text.as_bytes());
-    let Some(Child::Node(id)) = parsed.tree.children_of_root().first() else { panic!() };
-    let Some(Item::Field(f)) = parsed.tree.items(*id).first() else { panic!() };
-    let Value::Numbers { numbers, octal, span, .. } = &parsed.tree.field(*f).value else { panic!() };
+    let Some(Child::Node(id)) = parsed.tree.children_of_root().first() else {
+        panic!()
+    };
+    let Some(Item::Field(f)) = parsed.tree.items(*id).first() else {
+        panic!()
+    };
+    let Value::Numbers {
+        numbers,
+        octal,
+        span,
+        ..
+    } = &parsed.tree.field(*f).value
+    else {
+        panic!()
+    };
     let floats = parsed.tree.floats(numbers).unwrap();
     assert_eq!(floats.len(), 1003);
     assert_eq!(floats[..1000], (0..1000).map(f64::from).collect::<Vec<_>>());

@@ -135,15 +135,20 @@ impl<'a> File<'_, '_, 'a, '_> {
             return self.unknown_field(spec, id, node);
         };
         let value = self.value(spec, field_spec, id);
-        if field.connection.is_some() && value.is_none() {
+        if let Some(connection) = &field.connection {
+            // Looked up for the sake of its own remarks: a name that nobody has.
+            self.child(connection.master);
+            let subject = format!("`{}.{}`", spec.name, field_spec.name);
+            let kept = if value.is_some() {
+                "the value written is used"
+            } else {
+                "the field keeps its default"
+            };
             self.problem(
                 Severity::Warning,
                 "connection",
-                format!(
-                    "`{}.{}` takes its value from a connection",
-                    spec.name, field_spec.name
-                ),
-                "connections are not evaluated; the field keeps its default",
+                format!("{subject} is connected to another field"),
+                &format!("connections are not evaluated; {kept}"),
                 field.span,
             );
         }

@@ -53,7 +53,7 @@ impl<'a> Reader<'_, 'a> {
         match spec.field_type {
             T::SFBool | T::MFBool => self.flag(value, span),
             T::SFEnum | T::MFEnum | T::SFBitMask | T::MFBitMask => self.words(value, spec, span),
-            T::SFString | T::SFName | T::MFString | T::MFName => self.texts(value),
+            T::SFString | T::SFName | T::MFString | T::MFName => self.texts(value, span),
             T::SFNode | T::MFNode | T::SFEngine | T::MFEngine => Some(self.nodes(value)),
             T::SFImage => self.image(value, span),
             t if t.tuple_size() == 0 => Some(FieldValue::None),
@@ -186,8 +186,22 @@ impl<'a> Reader<'_, 'a> {
         Some(found)
     }
 
-    fn texts(&mut self, value: &Value) -> Option<FieldValue> {
+    fn texts(&mut self, value: &Value, span: Span) -> Option<FieldValue> {
         let text = |bytes: &[u8]| -> Arc<str> { text_of(bytes).into() };
+        // Coin would take the brace for part of the text.
+        let is_word = |atom: &Atom<'a>| matches!(atom, Atom::Word(..));
+        if let Value::Atoms { atoms, .. } = value
+            && self.tree.atoms(*atoms).iter().any(is_word)
+            && self.tree.source.get(span.end as usize) == Some(&b'}')
+        {
+            let message = format!("{} has a brace right behind its text", (self.subject)());
+            self.warn(
+                "glued-brace",
+                message,
+                "the text was ended before it; put it in quotes",
+                span,
+            );
+        }
         let texts = match value {
             Value::Atoms { atoms, .. } | Value::Mask(atoms) => self
                 .tree

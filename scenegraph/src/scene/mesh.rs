@@ -26,7 +26,8 @@ pub struct Mesh {
     pub origin: DVec3,
     /// Relative to `origin`; at least one.
     pub positions: Vec<[f32; 3]>,
-    /// Unit normals in the local frame; empty for unlit lines and points.
+    /// Unit normals in the local frame; empty for what is not lit: `LightModel` BASE_COLOR, and
+    /// lines and points without normals of their own.
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates as Inventor has them (T upwards), texture transform applied; may be empty.
     pub texcoords: Vec<[f32; 2]>,

@@ -7,7 +7,7 @@
 //! - all numbers are finite; `world_from_local` of an item is the product of its own
 //!   `parent_from_local` and those of its ancestors;
 //! - attribute arrays of a mesh are empty or as long as its positions; normals have unit length;
-//! - triangles are counter-clockwise seen from the side their normals point to;
+//! - front faces are counter-clockwise, whatever order the source has;
 //! - meshes, materials and textures are shared by index, and none is unused;
 //! - lights that are off and shapes that are not drawn are not in it.
 

@@ -6,7 +6,7 @@
 use geometry::bounds::Aabb;
 use geometry::local_origin::local_origin;
 use geometry::triangulate::{Outcome, Triangulator};
-use geometry::weld::Welder;
+use geometry::weld::{Welder, key_bits};
 use glam::{DVec3, Vec3};
 
 use crate::remarks::Remarks;
@@ -63,8 +63,9 @@ impl Assembler {
             self.triangulate(&corners, attributes, &used, remarks);
         }
         let clockwise = attributes.ordering == Ordering::Clockwise;
-        let wants_normals = topology == Topology::Triangles && job.lit;
-        let given = wants_normals && enough(attributes, &corners, &used, remarks);
+        // Normals are made for faces only; lines and points are lit if the file gives them some.
+        let given = job.lit && enough(attributes, &corners, &used, remarks);
+        let wants_normals = given || (job.lit && topology == Topology::Triangles);
         if wants_normals && !given {
             let groups = (&self.groups[..], group_count);
             let groups = corners.by_position.then_some(groups);
@@ -206,8 +207,20 @@ impl Assembler {
     /// Finds the vertex of each corner: corners with equal values share one.
     fn weld(&mut self, values: &Values<'_>) {
         self.words.clear();
+        let corners = values.numbers.iter().zip(0..);
+        if let Some(normals) = values.made_normals_only() {
+            // The usual case of generated normals, without a question a corner.
+            self.words.reserve(4 * normals.len());
+            for (&number, [x, y, z]) in values.numbers.iter().zip(normals) {
+                let group = self.groups[number as usize];
+                self.words
+                    .extend([group, key_bits(*x), key_bits(*y), key_bits(*z)]);
+            }
+            self.welder.weld(&self.words, 4, &mut self.vertex_of);
+            return;
+        }
         let mut stride = 0;
-        for (corner, &number) in values.numbers.iter().enumerate() {
+        for (&number, corner) in corners {
             self.words.push(self.groups[number as usize]);
             values.push_key(corner, &mut self.words);
             if corner == 0 {

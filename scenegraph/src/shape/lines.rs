@@ -125,10 +125,9 @@ pub fn points(job: &Job<'_>, attributes: &Attributes<'_>, remarks: &mut Remarks)
     finish(collector, 1, first_value)
 }
 
-/// Lines and points are not lit, so they carry no normals; a texture on them is not shown either.
+/// A texture on lines and points is not shown.
 fn finish(collector: Collector<'_>, step: usize, first_value: u32) -> Corners {
     Corners {
-        normals: Take::Nothing,
         texcoords: Take::Nothing,
         ..collector.finish(step, first_value)
     }

@@ -90,6 +90,14 @@ impl Values<'_> {
         }
     }
 
+    /// The normals, if they are one for each corner and all that corners take.
+    pub fn made_normals_only(&self) -> Option<&[[f32; 3]]> {
+        match &self.normals {
+            Normals::Made(list) if self.colors.is_none() && self.texcoords.is_none() => Some(list),
+            _ => None,
+        }
+    }
+
     /// Whether every value follows from the coordinate.
     pub fn follow_coordinates(&self) -> bool {
         let follows = |take: &Take| !matches!(take, Take::Corners(_));

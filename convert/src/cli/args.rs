@@ -1,0 +1,197 @@
+//! The arguments, as the user gives them. What they mean for a set of files is decided in `plan`.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::thread;
+
+use clap::{Parser, ValueEnum};
+
+const USAGE: &str = "\
+ivconvert [OPTIONS] <INPUT>...
+       ivconvert --info [--json] <INPUT>...";
+
+const EXAMPLES: &str = "\
+Examples:
+  ivconvert house.iv
+        writes house.glb beside it
+  ivconvert house.iv -o web/house.gltf
+        writes house.gltf and house.bin
+  ivconvert models --out-dir web
+        all .iv and .wrl files below models, in the same structure below web
+  ivconvert house.iv --search ~/textures
+        takes images and included files from there too
+  ivconvert house.iv --strict --report house.json
+        for scripts: exit code 1 if anything is lost, and all messages as JSON
+  ivconvert old.iv -o new.iv
+        Inventor text again, laid out anew
+  ivconvert --info house.iv
+        what is in the model; nothing is written
+
+Exit codes:
+  0  done
+  1  done, but something is lost or could not be used (only with --strict)
+  2  something failed; all other inputs are done";
+
+/// Converts Open Inventor models to glTF.
+///
+/// Each input is converted by itself; what glTF cannot carry is listed, and so is all that is
+/// wrong with the input. An output file is written whole or not at all.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "ivconvert", version, override_usage = USAGE, after_help = EXAMPLES)]
+pub struct Args {
+    /// Models, or folders that are searched for .iv and .wrl files
+    #[arg(value_name = "INPUT", required = true)]
+    pub inputs: Vec<PathBuf>,
+
+    /// Output file, for a single input; its extension chooses the format
+    #[arg(short, long, value_name = "OUT", conflicts_with = "out_dir")]
+    pub output: Option<PathBuf>,
+
+    /// Folder for the outputs, made if need be; searched folders keep their structure below it.
+    /// Without this and -o each output goes beside its input
+    #[arg(long, value_name = "DIR")]
+    pub out_dir: Option<PathBuf>,
+
+    /// Format of the outputs [default: by the extension of -o, else glb]
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+
+    /// Writes all messages, losses and sizes as one JSON document
+    #[arg(long, value_name = "FILE.json")]
+    pub report: Option<PathBuf>,
+
+    /// Puts times into the report, which then differs from run to run
+    #[arg(long, requires = "report")]
+    pub timings: bool,
+
+    /// Exit code 1 if anything of a model is lost or could not be used
+    #[arg(long)]
+    pub strict: bool,
+
+    /// How many inputs are converted at once; each holds its model in memory [default: one for
+    /// each processor]
+    #[arg(short, long, value_name = "N")]
+    pub jobs: Option<NonZeroUsize>,
+
+    /// A further folder that may be read, searched for images and included files behind the
+    /// input's own; may be given several times
+    #[arg(long, value_name = "DIR", value_parser = folder)]
+    pub search: Vec<PathBuf>,
+
+    /// Leaves out Inventor's own values that glTF has no place for
+    #[arg(long)]
+    pub no_extras: bool,
+
+    /// Prints errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+
+    /// Shows what is in the inputs and writes no files
+    #[arg(long, conflicts_with_all = [
+        "output", "out_dir", "format", "report", "timings", "strict", "no_extras",
+    ])]
+    pub info: bool,
+
+    /// Shows it as JSON
+    #[arg(long, requires = "info")]
+    pub json: bool,
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// glTF 2.0 in one binary file
+    Glb,
+    /// glTF 2.0 as JSON text with its numbers in a .bin file beside it
+    Gltf,
+    /// Inventor text, laid out anew: nothing is left out but comments
+    Iv,
+}
+
+impl Format {
+    /// The extension of its files.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Glb => "glb",
+            Self::Gltf => "gltf",
+            Self::Iv => "iv",
+        }
+    }
+
+    /// The format whose extension `path` has.
+    pub fn of_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?;
+        let all = [Self::Glb, Self::Gltf, Self::Iv];
+        all.into_iter()
+            .find(|format| extension.eq_ignore_ascii_case(format.extension()))
+    }
+}
+
+impl Args {
+    /// How many inputs are worked on at once.
+    pub fn jobs(&self) -> usize {
+        let jobs = self.jobs.or_else(|| thread::available_parallelism().ok());
+        jobs.map_or(1, NonZeroUsize::get)
+    }
+
+    /// The format of the outputs.
+    ///
+    /// # Errors
+    ///
+    /// `--format` and the extension of `-o` contradict each other, or neither says a format.
+    pub fn format(&self) -> Result<Format, String> {
+        let Some(output) = &self.output else {
+            return Ok(self.format.unwrap_or(Format::Glb));
+        };
+        let shown = output.display();
+        match (self.format, Format::of_path(output)) {
+            (Some(asked), Some(named)) if asked != named => Err(format!(
+                "--format {} does not fit the extension of `{shown}`",
+                asked.extension()
+            )),
+            (Some(format), _) | (None, Some(format)) => Ok(format),
+            (None, None) => Err(format!(
+                "`{shown}` ends in none of .glb, .gltf and .iv; give --format"
+            )),
+        }
+    }
+}
+
+fn folder(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if path.is_dir() {
+        Ok(path)
+    } else {
+        Err("it is not a folder".to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn extension_or_option_choose_the_format() {
+        let rows: [(&[&str], Option<Format>); 8] = [
+            (&[], Some(Format::Glb)),
+            (&["--format", "gltf"], Some(Format::Gltf)),
+            (&["-o", "b.GLTF"], Some(Format::Gltf)),
+            (&["-o", "b.iv"], Some(Format::Iv)),
+            (&["-o", "b.model", "--format", "glb"], Some(Format::Glb)),
+            (&["-o", "b.glb", "--format", "glb"], Some(Format::Glb)),
+            (&["-o", "b.glb", "--format", "iv"], None),
+            (&["-o", "b.obj"], None),
+        ];
+        for (options, want) in rows {
+            let words = ["ivconvert", "a.iv"].iter().chain(options);
+            let args = Args::try_parse_from(words).unwrap();
+            assert_eq!(args.format().ok(), want, "{options:?}");
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Inventor text to Inventor text. Works on the syntax alone: unknown nodes, names, connections
+//! and references to other files stay as they are.
+
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+
+use iv_parser::{Diagnostic, Dialect, Encoding, Problem, Severity, Source, SourcePos, Span, Tree};
+use scenegraph::RegistryLayout;
+
+use super::{atomic, model};
+
+/// A text and what is wrong with it.
+pub struct Text<'a> {
+    tree: Tree<'a>,
+    /// Problems in order of place.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Text<'a> {
+    /// Reads a text; `name` is shown in diagnostics.
+    pub fn of(bytes: &'a [u8], name: &Arc<str>) -> Self {
+        let parse = iv_parser::parse(bytes);
+        let source = Source {
+            name,
+            file: 0,
+            bytes,
+        };
+        let problems = match unsupported(&parse.tree) {
+            Some(problem) => vec![problem],
+            None => parse.problems,
+        };
+        let mut diagnostics = source.diagnostics(problems);
+        if parse.problems_dropped > 0 {
+            diagnostics.push(Diagnostic {
+                severity: Severity::Warning,
+                code: "more-problems",
+                message: format!("{} more problems are not shown", parse.problems_dropped),
+                hint: String::new(),
+                file: Arc::clone(name),
+                pos: SourcePos::default(),
+                snippet: None,
+            });
+        }
+        Self {
+            tree: parse.tree,
+            diagnostics,
+        }
+    }
+
+    /// Whether nothing of it could be read.
+    pub fn is_unsupported(&self) -> bool {
+        model::is_unsupported(&self.diagnostics)
+    }
+
+    /// Number of nodes written in it.
+    pub fn node_count(&self) -> usize {
+        self.tree.node_count()
+    }
+
+    /// Writes it, laid out anew. Returns its length.
+    ///
+    /// # Errors
+    ///
+    /// As [`atomic::write`].
+    pub fn write(&self, path: &Path) -> io::Result<u64> {
+        atomic::write(path, |out| {
+            iv_parser::print(&self.tree, &RegistryLayout, out)
+        })
+    }
+}
+
+fn unsupported(tree: &Tree<'_>) -> Option<Problem> {
+    let what = match (tree.header.dialect, tree.header.encoding) {
+        (Dialect::Vrml2, _) => "VRML 2.0 files",
+        (_, Encoding::Binary) => "binary Inventor files",
+        _ => return None,
+    };
+    Some(Problem {
+        severity: Severity::Error,
+        code: "unsupported-format",
+        message: format!("{what} are not read by this version"),
+        hint: "write the model as `#Inventor V2.1 ascii`".to_owned(),
+        span: Span::default(),
+    })
+}

@@ -1,0 +1,218 @@
+//! One input to one output. Prints nothing: all there is to say is in the [`Outcome`].
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use convert::{Container, Loss, Options, Report, Warning};
+use iv_parser::{Diagnostic, Severity, SourcePos};
+use scenegraph::{FileLoader, ResolveOptions, Resolved};
+use serde_json::{Value, json};
+
+use super::args::{Args, Format};
+use super::inputs::Input;
+use super::{inventor, model};
+
+/// What is the same for all inputs.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// `None` if no format could be settled; no input has an output then.
+    format: Option<Format>,
+    options: Options,
+    search: Vec<PathBuf>,
+}
+
+impl Settings {
+    /// As the user wants it.
+    pub fn of(args: &Args) -> Self {
+        let format = args.format().ok();
+        Self {
+            format,
+            options: Options {
+                container: match format {
+                    Some(Format::Gltf) => Container::GltfBin,
+                    _ => Container::Glb,
+                },
+                extras: !args.no_extras,
+                ..Options::default()
+            },
+            search: args.search.clone(),
+        }
+    }
+}
+
+/// A loss with the name of its file.
+#[derive(Clone, Debug)]
+pub struct NamedLoss {
+    /// The loss.
+    pub loss: Loss,
+    /// Name for display of the file that `loss.pos` is in.
+    pub file: Arc<str>,
+}
+
+/// All there is to say about one input.
+#[derive(Clone, Debug, Default)]
+pub struct Outcome {
+    /// The input.
+    pub input: PathBuf,
+    /// Where the output is, or would have been.
+    pub output: Option<PathBuf>,
+    /// Why there is no output.
+    pub failure: Option<String>,
+    /// Length of the input.
+    pub bytes_in: u64,
+    /// Length of the output, all its files together.
+    pub bytes_out: u64,
+    /// Sizes of the output, as JSON; null if there is none.
+    pub counts: Value,
+    /// What was wrong with the input.
+    pub diagnostics: Vec<Diagnostic>,
+    /// What of the model is not in the output although glTF could carry it.
+    pub warnings: Vec<Diagnostic>,
+    /// What glTF cannot carry.
+    pub losses: Vec<NamedLoss>,
+    /// Time taken.
+    pub time: Duration,
+}
+
+impl Outcome {
+    fn new(input: &Input, output: Option<&Path>) -> Self {
+        Self {
+            input: input.path.clone(),
+            output: output.map(Path::to_owned),
+            ..Self::default()
+        }
+    }
+
+    /// Of an input whose conversion panicked.
+    pub fn broken(input: &Input, output: Option<&Path>, panic: &str) -> Self {
+        Self {
+            failure: Some(format!("internal error: {panic}")),
+            ..Self::new(input, output)
+        }
+    }
+}
+
+/// Converts one input.
+pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome {
+    let start = Instant::now();
+    let mut outcome = Outcome::new(input, output);
+    let target = match (&input.fault, output, settings.format) {
+        (Some(fault), _, _) => Err(fault.clone()),
+        (None, Some(path), Some(format)) => Ok((path, format)),
+        _ => Err("it has no output".to_owned()),
+    };
+    outcome.failure = target
+        .and_then(|(path, format)| match format {
+            Format::Iv => to_inventor(&mut outcome, path),
+            Format::Glb | Format::Gltf => to_gltf(&mut outcome, path, settings),
+        })
+        .err();
+    outcome.time = start.elapsed();
+    outcome
+}
+
+fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
+    let bytes = model::read(&outcome.input)?;
+    outcome.bytes_in = bytes.len() as u64;
+    let name = outcome.input.display().to_string().into();
+    let text = inventor::Text::of(&bytes, &name);
+    outcome.diagnostics.clone_from(&text.diagnostics);
+    if text.is_unsupported() {
+        return Err(model::UNSUPPORTED.to_owned());
+    }
+    make_folder_of(path)?;
+    outcome.bytes_out = text
+        .write(path)
+        .map_err(|error| format!("{}: {error}", path.display()))?;
+    outcome.counts = json!({ "nodes": text.node_count() });
+    Ok(())
+}
+
+fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<(), String> {
+    let files = model::file_loader(&outcome.input, &settings.search);
+    let scene = resolved(outcome, &files)?.scene;
+    make_folder_of(path)?;
+    let images = model::Images(&files);
+    let report = convert::write_file(&scene, &settings.options, &images, path)
+        .map_err(|error| error.to_string())?;
+    outcome.bytes_out = report.counts.bytes;
+    outcome.counts = counts(&report, scene.instances.len());
+    if scene.instances.is_empty() {
+        outcome.warnings.push(no_geometry(&outcome.input));
+    }
+    let name_of = |pos: SourcePos| {
+        let name = scene.files.get(pos.file as usize);
+        name.cloned().unwrap_or_else(|| "".into())
+    };
+    let left_out = report.warnings.into_iter();
+    outcome
+        .warnings
+        .extend(left_out.map(|warning| image_left_out(warning, &name_of)));
+    let losses = report.losses.into_iter().map(|loss| NamedLoss {
+        file: name_of(loss.pos),
+        loss,
+    });
+    outcome.losses.extend(losses);
+    Ok(())
+}
+
+/// Reads and resolves the input. Text and graph are gone when this returns, so that they do not
+/// take up memory while the output is made.
+fn resolved(outcome: &mut Outcome, files: &FileLoader) -> Result<Resolved, String> {
+    let bytes = model::read(&outcome.input)?;
+    outcome.bytes_in = bytes.len() as u64;
+    let mut graph = model::graph(&bytes, &outcome.input, files);
+    drop(bytes);
+    outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
+    if model::is_unsupported(&outcome.diagnostics) {
+        return Err(model::UNSUPPORTED.to_owned());
+    }
+    let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
+    outcome.diagnostics.append(&mut resolved.diagnostics);
+    Ok(resolved)
+}
+
+fn make_folder_of(path: &Path) -> Result<(), String> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+fn counts(report: &Report, instances: usize) -> Value {
+    let counts = &report.counts;
+    json!({
+        "nodes": counts.nodes,
+        "meshes": counts.meshes,
+        "instances": instances,
+        "triangles": { "unique": counts.triangles, "instanced": counts.triangles_drawn },
+        "materials": counts.materials,
+        "textures": counts.images,
+        "lights": counts.lights,
+        "cameras": counts.cameras,
+    })
+}
+
+fn no_geometry(input: &Path) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Warning,
+        code: "no-geometry",
+        message: "nothing in this model is drawn".to_owned(),
+        hint: "the output holds no meshes".to_owned(),
+        file: input.display().to_string().into(),
+        pos: SourcePos::default(),
+        snippet: None,
+    }
+}
+
+fn image_left_out(warning: Warning, name_of: &impl Fn(SourcePos) -> Arc<str>) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Warning,
+        code: "image",
+        message: format!("`{}` is left out: {}", warning.name, warning.reason),
+        hint: "images are looked for beside the model and in the --search folders".to_owned(),
+        file: name_of(warning.pos),
+        pos: warning.pos,
+        snippet: None,
+    }
+}

@@ -1,0 +1,140 @@
+//! The command line: arguments in, files, messages and an exit code out.
+//!
+//! All that is decided before the first file is read is in [`args`], [`inputs`] and [`plan`]. One
+//! input is then one call of [`job`] or [`info`], which touch no terminal; [`screen`] alone does.
+//!
+//! Exit codes: 0 done, 1 done but not everything came over (with `--strict`), 2 something failed.
+
+mod args;
+mod atomic;
+mod info;
+mod inputs;
+mod inventor;
+mod job;
+mod json;
+mod messages;
+mod model;
+mod plan;
+mod pool;
+mod report;
+mod screen;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::{CommandFactory, Parser};
+
+use args::Args;
+use inputs::Input;
+use messages::{Style, Totals};
+use pool::Event;
+use screen::Screen;
+
+/// Everything done.
+const DONE: u8 = 0;
+/// Done, but something of the model is not in the output.
+const INCOMPLETE: u8 = 1;
+/// Something was not done.
+const FAILED: u8 = 2;
+
+/// The whole command, with the arguments of the process.
+pub fn run() -> ExitCode {
+    let args = Args::parse();
+    let inputs = inputs::find(&args.inputs, args.out_dir.as_deref());
+    let outcome = if args.info {
+        Ok(show(&args, &inputs))
+    } else {
+        plan::outputs(&args, &inputs).map(|outputs| convert(&args, &inputs, &outputs))
+    };
+    let code = outcome.unwrap_or_else(|message| {
+        let kind = clap::error::ErrorKind::ValueValidation;
+        // Nothing is left to tell if standard error is gone.
+        let _ = Args::command().error(kind, message).print();
+        FAILED
+    });
+    ExitCode::from(code)
+}
+
+/// Converts all inputs; returns the exit code.
+fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>]) -> u8 {
+    let start = Instant::now();
+    let settings = job::Settings::of(args);
+    let mut screen = Screen::new(inputs.len(), args.quiet);
+    let mut totals = Totals::default();
+    let mut report = args.report.as_ref().map(|_| report::Report::new(args));
+    let style = Style::of(args);
+    pool::run(
+        inputs.len(),
+        args.jobs(),
+        |i| job::run(&inputs[i], outputs[i].as_deref(), &settings),
+        |event| match event {
+            Event::Tick { finished } => screen.tick(finished),
+            Event::Next { index, result } => {
+                let outcome = result.unwrap_or_else(|panic| {
+                    job::Outcome::broken(&inputs[index], outputs[index].as_deref(), &panic)
+                });
+                screen.message(&messages::block(&outcome, &style));
+                totals.add(&outcome);
+                if let Some(report) = &mut report {
+                    report.add(&outcome);
+                }
+            }
+        },
+    );
+    let written = report.zip(args.report.as_ref()).map(|(report, path)| {
+        let text = report.finish(&totals, start.elapsed());
+        atomic::write_json(path, &text)
+    });
+    if let Some(Err(why)) = written {
+        totals.report_failed = true;
+        screen.message(&messages::error_line("--report", &why));
+    }
+    screen.finish();
+    if !args.quiet {
+        screen.message(&totals.summary(start.elapsed()));
+    }
+    totals.exit_code(args.strict)
+}
+
+/// Shows what is in all inputs; returns the exit code.
+fn show(args: &Args, inputs: &[Input]) -> u8 {
+    let mut screen = Screen::new(inputs.len(), args.quiet);
+    let mut documents = Vec::new();
+    let mut failed = false;
+    let style = Style::of(args);
+    pool::run(
+        inputs.len(),
+        args.jobs(),
+        |i| info::of(&inputs[i], &args.search),
+        |event| match event {
+            Event::Tick { finished } => screen.tick(finished),
+            Event::Next { index, result } => {
+                let info =
+                    result.unwrap_or_else(|panic| info::Info::broken(&inputs[index], &panic));
+                failed |= info.failure.is_some();
+                screen.message(&messages::lines(
+                    &info.path,
+                    &info.diagnostics,
+                    &[],
+                    info.failure.as_deref(),
+                    &style,
+                ));
+                if args.json {
+                    documents.push(info::json::document(&info));
+                } else if let Some(content) = &info.content {
+                    screen.output(&info::table::text(&info, content));
+                }
+            }
+        },
+    );
+    screen.finish();
+    if args.json {
+        screen.output(&json::text(&serde_json::json!({ "inputs": documents })));
+    }
+    if failed || screen.output_failed() {
+        FAILED
+    } else {
+        DONE
+    }
+}

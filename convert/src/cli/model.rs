@@ -1,0 +1,69 @@
+//! Reading one input: its bytes, its graph, and whether its format can be read at all.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use iv_parser::Diagnostic;
+use scenegraph::{FileLoader, Graph, Loader};
+
+/// Longest input read: one byte more than the parser takes, so that it can say so.
+const MAX_BYTES: u64 = 1 << 32;
+
+/// The bytes of an input.
+///
+/// # Errors
+///
+/// What the system says, in words.
+pub fn read(path: &Path) -> Result<Vec<u8>, String> {
+    let cannot = |error: io::Error| format!("cannot be read: {error}");
+    let file = File::open(path).map_err(cannot)?;
+    let length = file.metadata().map_err(cannot)?.len();
+    let mut bytes = Vec::new();
+    // A failed reservation is an error here and would end the process in `read_to_end`.
+    bytes
+        .try_reserve_exact(length.min(MAX_BYTES) as usize)
+        .map_err(|_| "cannot be read: there is not enough memory".to_owned())?;
+    file.take(MAX_BYTES)
+        .read_to_end(&mut bytes)
+        .map_err(cannot)?;
+    Ok(bytes)
+}
+
+/// Opens what a model refers to: in its own folder, then in the search folders.
+pub fn file_loader(path: &Path, search: &[PathBuf]) -> FileLoader {
+    let own = folder_of(path);
+    FileLoader::new([own].into_iter().chain(search.iter().map(PathBuf::as_path)))
+}
+
+/// The graph of a model with all it includes.
+pub fn graph(bytes: &[u8], path: &Path, files: &FileLoader) -> Graph {
+    let name = path.display().to_string();
+    scenegraph::load(bytes, &name, folder_of(path), files)
+}
+
+/// Whether the input itself, not a file it includes, is of a format that is not read.
+pub fn is_unsupported(diagnostics: &[Diagnostic]) -> bool {
+    diagnostics
+        .iter()
+        .any(|d| d.code == "unsupported-format" && d.pos.file == 0)
+}
+
+/// Why an input of such a format failed; its diagnostic says which format it is.
+pub const UNSUPPORTED: &str = "not converted: its format is not read";
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+/// Images by way of the graph's own loader.
+pub struct Images<'a>(pub &'a FileLoader);
+
+impl convert::TextureLoader for Images<'_> {
+    fn load(&self, beside: &Path, name: &str) -> Result<Vec<u8>, String> {
+        match self.0.load(beside, name) {
+            Ok(loaded) => Ok(loaded.bytes),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+}
