@@ -43,6 +43,13 @@ impl<'l> Includes<'l> {
         }
     }
 
+    /// Makes the first file known, so that others that include it are refused.
+    pub(super) fn know_root(&mut self, name: &str, folder: &Path, root: NodeId) {
+        if let Some(last) = Path::new(name).file_name() {
+            self.known.insert(folder.join(last), (0, root));
+        }
+    }
+
     /// Whether `from` includes `to`, directly or by way of others, or is it.
     fn reaches(&self, from: u32, to: u32) -> bool {
         let mut seen = vec![false; self.edges.len()];

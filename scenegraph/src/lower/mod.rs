@@ -29,7 +29,8 @@ pub(crate) use value::read_default;
 
 /// Reads a model and all it includes, with the default limits of the parser.
 ///
-/// `name` is shown in diagnostics; references are looked for in `folder` first.
+/// `name` is shown in diagnostics; references are looked for in `folder` first, which should be a
+/// canonical path: `folder` and the last part of `name` tell a file that includes itself.
 pub fn load(bytes: &[u8], name: &str, folder: &Path, loader: &dyn Loader) -> Graph {
     load_with(bytes, name, folder, loader, &iv_parser::Limits::default())
 }
@@ -50,6 +51,7 @@ pub fn load_with(
         limits: *limits,
     };
     let root = builder.file(bytes, name.into(), folder);
+    builder.includes.know_root(name, folder, root);
     builder.load_includes();
     Graph {
         nodes: builder.nodes,

@@ -83,8 +83,8 @@ impl Default for ResolveOptions {
 pub struct Resolved {
     /// The scene.
     pub scene: Scene,
-    /// With [`Geometry::Measure`]: for each mesh of the scene (which then has no vertices) its
-    /// size.
+    /// With [`Geometry::Measure`]: the size of each mesh; the scene then has none, and its
+    /// instances count in this list.
     pub measures: Vec<Measure>,
     /// One for each kind of remark.
     pub diagnostics: Vec<Diagnostic>,

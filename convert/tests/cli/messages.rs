@@ -1,0 +1,161 @@
+//! Exit codes, and what is printed.
+
+use crate::place::{CUBE, FOG, IMAGE, Place, UNKNOWN_USE};
+
+#[test]
+fn exit_codes_and_messages() {
+    let place = Place::new()
+        .model("cube.iv", CUBE)
+        .model("use.iv", UNKNOWN_USE)
+        .model("fog.iv", FOG)
+        .model("image.iv", IMAGE)
+        .model("empty.iv", "Separator { Label { label \"a\" } }")
+        .file("v2.wrl", "#VRML V2.0 utf8\nShape { }\n")
+        .file("binary.iv", "#Inventor V2.1 binary  \n\0\0\0\u{1}")
+        .file("folder/notes.txt", "");
+    // Arguments, exit code, what the messages contain.
+    let rows: &[(&str, i32, &[&str])] = &[
+        ("cube.iv", 0, &["1 converted, 0."]),
+        ("cube.iv --strict", 0, &["1 converted, 0."]),
+        (
+            "use.iv",
+            0,
+            &[
+                "use.iv:2:",
+                ": error[unknown-name]: ",
+                "| Separator",
+                "^^",
+                "1 error",
+            ],
+        ),
+        (
+            "use.iv --strict",
+            1,
+            &["error[unknown-name]", "1 converted"],
+        ),
+        (
+            "fog.iv",
+            0,
+            &["fog.iv:2:57: loss[fog]: ", "1 converted, 1 loss, "],
+        ),
+        ("fog.iv --strict", 1, &["loss[fog]"]),
+        (
+            "image.iv",
+            0,
+            &[
+                "image.iv:2:13: warning[image]: `wood.png` is left out",
+                "--search",
+            ],
+        ),
+        ("image.iv --strict", 1, &["warning[image]"]),
+        (
+            "empty.iv --strict",
+            0,
+            &["empty.iv: warning[no-geometry]", "1 converted"],
+        ),
+        (
+            "v2.wrl",
+            2,
+            &[
+                "error[unsupported-format]: VRML 2.0",
+                "v2.wrl: error: ",
+                "1 failed",
+            ],
+        ),
+        (
+            "v2.wrl --format iv -o v2.iv",
+            2,
+            &["error[unsupported-format]: VRML 2.0", "1 failed"],
+        ),
+        (
+            "binary.iv",
+            2,
+            &["error[unsupported-format]: binary", "0 converted, 1 failed"],
+        ),
+        (
+            "gone.iv cube.iv",
+            2,
+            &["gone.iv: error: cannot be read: ", "1 converted, 1 failed"],
+        ),
+        (
+            "folder",
+            2,
+            &["folder: error: the folder holds no .iv or .wrl files"],
+        ),
+        (
+            "cube.iv --out-dir cube.iv",
+            2,
+            &["cube.iv: error: cube.iv: "],
+        ),
+        ("cube.iv -o new/x.glb", 0, &["1 converted"]),
+        (
+            "cube.iv --report folder",
+            2,
+            &["--report: error: folder: ", "1 converted"],
+        ),
+        ("cube.iv --quiet", 0, &[]),
+        (
+            "cube.iv -o folder",
+            2,
+            &["`folder` is a folder; use --out-dir"],
+        ),
+        ("cube.iv -o a.obj", 2, &["`a.obj` ends in none of"]),
+        (
+            "cube.iv -o a.glb --format iv",
+            2,
+            &["--format iv does not fit"],
+        ),
+        ("cube.iv fog.iv -o a.glb", 2, &["-o is for a single input"]),
+        ("folder -o a.glb", 2, &["-o is for a single input"]),
+        (
+            "cube.iv --search gone",
+            2,
+            &["'gone'", "it is not a folder"],
+        ),
+        ("cube.iv --jobs 0", 2, &["--jobs"]),
+        ("cube.iv --json", 2, &["--info"]),
+        ("cube.iv --info --strict", 2, &["cannot be used with"]),
+        ("", 2, &["<INPUT>"]),
+    ];
+    for (args, code, needles) in rows {
+        let run = place.run(args);
+        assert_eq!(run.code, *code, "{args}: {}", run.err);
+        assert_eq!(run.out, "", "{args}");
+        assert_eq!(
+            run.err.is_empty(),
+            needles.is_empty(),
+            "{args}: {}",
+            run.err
+        );
+        for needle in *needles {
+            assert!(
+                run.err.contains(needle),
+                "{args}: no `{needle}` in {}",
+                run.err
+            );
+        }
+    }
+}
+
+#[test]
+fn long_lists_of_messages_are_cut_and_quiet_shows_errors_only() {
+    let unknown_fields: String = (0..40).map(|i| format!("Cube {{ wide{i} 1 }}\n")).collect();
+    let place = Place::new().model("a.iv", &format!("{unknown_fields}USE Lid\n{FOG}"));
+    let run = place.run("a.iv --report r.json");
+    assert_eq!(run.err.matches("warning[unknown-field]").count(), 19);
+    assert_eq!(run.err.matches("error[unknown-name]").count(), 1);
+    assert!(
+        run.err.contains("a.iv: … and 21 more (see r.json)\n"),
+        "{}",
+        run.err
+    );
+    let all = place.json("r.json");
+    assert_eq!(
+        all["inputs"][0]["diagnostics"].as_array().map(Vec::len),
+        Some(41)
+    );
+    let run = place.run("a.iv -q");
+    assert_eq!(run.code, 0);
+    assert!(run.err.starts_with("a.iv:42:"), "{}", run.err);
+    assert_eq!(run.err.matches("[").count(), 1, "{}", run.err);
+}

@@ -1,0 +1,99 @@
+//! Which files are written, and which are not.
+
+use std::fs;
+use std::process::Command;
+
+use crate::place::{CUBE, FOG, Place, Run};
+
+#[test]
+fn nothing_is_written_for_what_cannot_be_read_or_is_refused() {
+    let place = Place::new()
+        .file("v2.wrl", "#VRML V2.0 utf8\nShape { }\n")
+        .model("a.iv", CUBE)
+        .model("b/a.iv", FOG);
+    let before = place.files();
+    // Arguments, what the messages contain.
+    let rows = [
+        ("v2.wrl", "error[unsupported-format]"),
+        ("gone.iv --out-dir out", "gone.iv: error"),
+        ("a.iv --format iv", "`a.iv` would be written over itself"),
+        ("a.iv -o ./b/../a.iv", "would be written over itself"),
+        ("b --out-dir b --format iv", "would be written over itself"),
+        (
+            "b/a.iv a.iv --out-dir . --format iv",
+            "`./a.iv` is an input and would be overwritten by the output of `b/a.iv`",
+        ),
+        (
+            "a.iv b/a.iv --out-dir out",
+            "`a.iv` and `b/a.iv` would both be written to `out/a.glb`",
+        ),
+        (
+            "a.iv --report a.iv",
+            "`a.iv` is an input and cannot be the report",
+        ),
+        (
+            "a.iv --report ./a.glb",
+            "`./a.glb` is an output and cannot be the report",
+        ),
+        (
+            "a.iv -o a.bin --format gltf",
+            "cannot be both the glTF text and its .bin",
+        ),
+    ];
+    for (args, needle) in rows {
+        let run = place.run(args);
+        assert_eq!(run.code, 2, "{args}: {}", run.err);
+        assert!(run.err.contains(needle), "{args}: {}", run.err);
+        assert_eq!(place.files(), before, "{args}");
+    }
+}
+
+/// A write that fails half-way: the system lets no file grow beyond 4 or 8 KiB.
+#[cfg(unix)]
+#[test]
+fn a_failed_write_leaves_the_old_file_and_no_other() {
+    for (output, old) in [("out.glb", "old"), ("out.gltf", "old"), ("out.iv", "old")] {
+        let place = Place::new()
+            .sample("pavilion.iv", "pavilion.iv")
+            .file(output, old);
+        let before = place.files();
+        let script = format!(r#"trap '' XFSZ; ulimit -f 8; exec "$0" pavilion.iv -o {output}"#);
+        let run = Run::of(
+            Command::new("sh")
+                .args(["-c", &script, env!("CARGO_BIN_EXE_ivconvert")])
+                .current_dir(place.folder.path()),
+        );
+        assert_eq!(run.code, 2, "{}", run.err);
+        assert!(run.err.contains("pavilion.iv: error: out."), "{}", run.err);
+        assert_eq!(place.files(), before, "{output}");
+    }
+}
+
+#[test]
+fn formats() {
+    let place = Place::new().sample("structure/flange_bolts.iv", "a.iv");
+    assert_eq!(place.run("a.iv").code, 0);
+    assert_eq!(place.run("a.iv -o web/b.gltf").code, 0);
+    assert_eq!(place.run("a.iv -o web/b.iv").code, 0);
+    assert_eq!(place.run("a.iv -o small.glb --no-extras").code, 0);
+    let want = [
+        "a.glb",
+        "a.iv",
+        "small.glb",
+        "web/b.bin",
+        "web/b.gltf",
+        "web/b.iv",
+    ];
+    assert_eq!(place.names(), want);
+    let glb = gltf::Gltf::open(place.path("a.glb")).unwrap();
+    let text = gltf::Gltf::open(place.path("web/b.gltf")).unwrap();
+    assert_eq!(glb.meshes().count(), text.meshes().count());
+    assert_eq!(glb.nodes().count(), text.nodes().count());
+    let bytes = |name: &str| fs::read(place.path(name)).unwrap();
+    let has_extras = |name: &str| bytes(name).windows(6).any(|w| w == b"extras");
+    assert!(has_extras("a.glb") && !has_extras("small.glb"));
+    // Text written anew means the same.
+    assert_eq!(place.run("web/b.iv -o again.glb").code, 0);
+    assert!(bytes("web/b.iv") != bytes("a.iv"));
+    assert!(bytes("again.glb") == bytes("a.glb"));
+}
