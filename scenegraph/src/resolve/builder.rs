@@ -11,6 +11,8 @@ use crate::scene::{
 };
 use crate::shape::Measure;
 
+use super::state::LightList;
+
 /// What two uses of a material must have in common to share it: all values, bit by bit.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct MaterialKey {
@@ -22,13 +24,21 @@ struct MaterialKey {
     line_pattern: u16,
 }
 
+/// Longest that all light sets may be together. Every shape between two of many lights sees
+/// another set, so their length can grow with the square of the file's.
+const MAX_LIGHT_SET_ENTRIES: usize = 4_000_000;
+
 #[derive(Default)]
 pub(super) struct Builder {
     scene: Scene,
     measures: Vec<Measure>,
     materials: FxHashMap<MaterialKey, MaterialId>,
     textures: FxHashMap<NodeId, TextureId>,
-    light_sets: FxHashMap<Vec<LightId>, LightSetId>,
+    /// Each list: the one it continues, and the light it adds.
+    light_lists: Vec<(LightList, LightId)>,
+    light_sets: FxHashMap<LightList, LightSetId>,
+    light_set_entries: usize,
+    environments: FxHashMap<Vec<u64>, EnvironmentId>,
     class_names: FxHashSet<Arc<str>>,
 }
 
@@ -75,37 +85,56 @@ impl Builder {
         self.scene.instances.push(instance);
     }
 
-    pub fn light(&mut self, light: Light) -> LightId {
+    /// Adds a light to the scene, and to a list.
+    pub fn light(&mut self, light: Light, list: LightList) -> LightList {
+        let id = LightId(self.scene.lights.len() as u32);
         self.scene.lights.push(light);
-        LightId(self.scene.lights.len() as u32 - 1)
+        self.light_lists.push((list, id));
+        LightList(self.light_lists.len() as u32)
     }
 
     pub fn camera(&mut self, camera: Camera) {
         self.scene.cameras.push(camera);
     }
 
-    pub fn light_set(&mut self, lights: &[LightId]) -> LightSetId {
-        if let Some(&known) = self.light_sets.get(lights) {
-            return known;
+    /// The lights of a list as a set of the scene; `None` if the sets would become too long.
+    pub fn light_set(&mut self, list: LightList) -> Option<LightSetId> {
+        if let Some(&known) = self.light_sets.get(&list) {
+            return Some(known);
         }
+        let mut lights = Vec::new();
+        let mut rest = list;
+        while let Some(&(before, light)) = (rest.0 as usize)
+            .checked_sub(1)
+            .and_then(|i| self.light_lists.get(i))
+        {
+            if self.light_set_entries + lights.len() >= MAX_LIGHT_SET_ENTRIES {
+                return None;
+            }
+            lights.push(light);
+            rest = before;
+        }
+        lights.reverse();
+        self.light_set_entries += lights.len();
         let id = LightSetId(self.scene.light_sets.len() as u32);
-        self.scene.light_sets.push(lights.to_vec());
-        self.light_sets.insert(lights.to_vec(), id);
-        id
+        self.scene.light_sets.push(lights);
+        self.light_sets.insert(list, id);
+        Some(id)
     }
 
     pub fn environment(&mut self, environment: &Environment) -> EnvironmentId {
-        // Few files have more than one.
-        let known = self
-            .scene
-            .environments
-            .iter()
-            .rposition(|e| e == environment);
-        let index = known.unwrap_or_else(|| {
+        let mut key = vec![environment.ambient_intensity.to_bits()];
+        key.extend(environment.ambient_color_srgb.map(f64::to_bits));
+        key.extend(environment.attenuation.map(f64::to_bits));
+        if let Some(fog) = &environment.fog {
+            key.push(fog.fog_type as u64);
+            key.extend(fog.color_srgb.map(f64::to_bits));
+            key.push(fog.visibility.to_bits());
+        }
+        *self.environments.entry(key).or_insert_with(|| {
             self.scene.environments.push(environment.clone());
-            self.scene.environments.len() - 1
-        });
-        EnvironmentId(index as u32)
+            EnvironmentId(self.scene.environments.len() as u32 - 1)
+        })
     }
 
     /// The texture of a `Texture2` node.

@@ -1,7 +1,5 @@
 //! Lights and cameras.
 
-use std::rc::Rc;
-
 use glam::DVec3;
 
 use crate::graph::{Node, NodeId};
@@ -45,9 +43,7 @@ impl Walk<'_> {
             intensity: node.number("intensity"),
             environment: self.state.environment_id,
         };
-        let light = self.builder.light(light);
-        Rc::make_mut(&mut self.state.lights).push(light);
-        self.state.light_set = self.builder.light_set(&self.state.lights);
+        self.state.lights = self.builder.light(light, self.state.lights);
         true
     }
 

@@ -71,6 +71,14 @@ impl Walk<'_> {
             }
             Class::ShapeHints => shape_hints(node, state, self.vrml1),
             Class::Complexity => {
+                if node.word("type") == "BOUNDING_BOX" {
+                    self.remarks.warn(
+                        "bounding-box",
+                        "Complexity asks for boxes in place of shapes",
+                        "the shapes themselves were used",
+                        node.pos,
+                    );
+                }
                 if !node.is_ignored("value") {
                     state.complexity = node.number("value").clamp(0.0, 1.0);
                 }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::graph::{FieldValue, NodeId};
 use crate::registry::Class;
 use crate::scene::{
-    Faces, Instance, LightModel, Material, Texture, TextureId, TextureModel, TextureSource, Wrap,
+    Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
+    TextureSource, Wrap,
 };
 use crate::shape::{Attributes, Job, Made, ShapeMaker, is_closed};
 
@@ -52,11 +53,20 @@ impl Walk<'_> {
             && let Some(placement) = self.place(id)
         {
             let material = self.material(&job, &made);
+            let light_set = self.builder.light_set(state.lights).unwrap_or_else(|| {
+                self.remarks.warn(
+                    "too-many-lights",
+                    "too many shapes are each lit by too many lights",
+                    "the rest is taken as lit by none of them",
+                    placement.pos,
+                );
+                LightSetId(0)
+            });
             self.builder.instance(Instance {
                 placement,
                 mesh: made.mesh,
                 material,
-                light_set: state.light_set,
+                light_set,
                 environment: state.environment_id,
             });
         }

@@ -3,12 +3,10 @@
 //! A Separator keeps a copy and puts it back; everything else writes into it. Pieces that are
 //! large in the source are held by the node that set them, so a copy is a few hundred bytes.
 
-use std::rc::Rc;
-
 use glam::{DAffine3, DMat3};
 
 use crate::graph::NodeId;
-use crate::scene::{Environment, EnvironmentId, LightId, LightModel, LightSetId};
+use crate::scene::{Environment, EnvironmentId, LightModel};
 
 /// How values attach to geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -119,6 +117,11 @@ pub struct DrawStyle {
     pub line_pattern: u16,
 }
 
+/// A list of lights, held by the builder: 0 is the empty one. Lists share their beginnings, so
+/// that adding a light costs the same however many there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct LightList(pub u32);
+
 /// All that a node can leave to those after it.
 #[derive(Clone, Debug)]
 pub struct State {
@@ -147,8 +150,8 @@ pub struct State {
     pub texture: Option<NodeId>,
     /// Applied to texture coordinates (s, t, 1).
     pub texture_transform: DMat3,
-    pub lights: Rc<Vec<LightId>>,
-    pub light_set: LightSetId,
+    /// The lights that reach what comes next.
+    pub lights: LightList,
     pub environment: Environment,
     pub environment_id: EnvironmentId,
 }
@@ -193,8 +196,7 @@ impl State {
             },
             texture: None,
             texture_transform: DMat3::IDENTITY,
-            lights: Rc::new(Vec::new()),
-            light_set: LightSetId(0),
+            lights: LightList::default(),
             environment: Environment::default(),
             environment_id: EnvironmentId(0),
         }

@@ -77,7 +77,7 @@ impl<'g> Walk<'g> {
             .is_some_and(|f| f.header.dialect == Dialect::Vrml1);
         let mut builder = Builder::default();
         let state = State::new(vrml1);
-        builder.light_set(&state.lights);
+        builder.light_set(state.lights);
         builder.environment(&state.environment);
         Self {
             graph,

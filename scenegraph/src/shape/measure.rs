@@ -54,15 +54,17 @@ pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
         .class()
         .is_some_and(|c| c.spec().field(b"coordIndex").is_some())
     {
+        let exists = |v: &i32| (*v as usize) < attributes.coordinate_count();
         for run in node.ints("coordIndex").split(|&v| v < 0) {
-            let valid = run
-                .iter()
-                .all(|&v| (v as usize) < attributes.coordinate_count());
-            if run.len() > less && valid {
-                primitives += run.len() - less;
-                run.iter()
-                    .filter_map(|&v| at(v as usize))
-                    .for_each(|p| bounds.include(p));
+            // A bad index costs a face or strip whole, of a polyline only its segments.
+            let pieces: Vec<&[i32]> = match less {
+                2 => vec![if run.iter().all(exists) { run } else { &[] }],
+                _ => run.split(|v| !exists(v)).collect(),
+            };
+            for piece in pieces.into_iter().filter(|piece| piece.len() > less) {
+                primitives += piece.len() - less;
+                let points = piece.iter().filter_map(|&v| at(v as usize));
+                points.for_each(|p| bounds.include(p));
             }
         }
     } else if job.class == Class::QuadMesh {
