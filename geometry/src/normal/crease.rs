@@ -170,13 +170,23 @@ impl CreaseNormals {
     }
 }
 
+/// Distinct normals up to which their neighbourhoods fit a word each.
+const MAX_MASKED: usize = u64::BITS as usize;
+
 /// The faces around one vertex.
 #[derive(Default)]
 struct Group {
     faces: Vec<u32>,
+    /// For each face its place in `normals`; `NONE` for a degenerate one.
+    slots: Vec<u32>,
     /// Distinct normals, and how many faces have each.
     normals: Vec<(DVec3, f64)>,
+    /// For each normal a bit for each one within the crease angle, its own included.
+    masks: Vec<u64>,
 }
+
+/// No place in a list.
+const NONE: u32 = u32::MAX;
 
 impl Group {
     fn smooth(&mut self, faces: &Corners, corners: &[u32], min_dot: f64, out: &mut [[f32; 3]]) {
@@ -201,9 +211,69 @@ impl Group {
         if self.normals.len() > MAX_DISTINCT_NORMALS {
             return;
         }
+        if self.normals.len() <= MAX_MASKED {
+            return self.smooth_by_masks(faces, corners, min_dot, out);
+        }
         for &corner in corners {
             let own = faces.normal_of_face(faces.corner_face[corner as usize]);
             out[corner as usize] = self.sum_within(own, min_dot).stored(own);
+        }
+    }
+
+    /// As [`Self::smooth`], comparing each pair of normals once. Corners with no neighbour within
+    /// the angle are left alone: they have their face's normal already.
+    fn smooth_by_masks(
+        &mut self,
+        faces: &Corners,
+        corners: &[u32],
+        min_dot: f64,
+        out: &mut [[f32; 3]],
+    ) {
+        self.masks.clear();
+        self.masks
+            .extend((0..self.normals.len()).map(|i| 1_u64 << i));
+        for i in 1..self.normals.len() {
+            for j in 0..i {
+                let (a, b) = (self.normals[i].0, self.normals[j].0);
+                if a.dot(b) > min_dot || a == b {
+                    self.masks[i] |= 1 << j;
+                    self.masks[j] |= 1 << i;
+                }
+            }
+        }
+        let mut last = (0, [0.0; 3]);
+        for (i, &corner) in corners.iter().enumerate() {
+            let face = faces.corner_face[corner as usize];
+            // The corners are in the order of the faces unless those had to be sorted.
+            let at = match self.faces.get(i) {
+                Some(&same) if same == face => Ok(i),
+                _ => self.faces.binary_search(&face),
+            };
+            let slot = at.map_or(NONE, |at| self.slots[at]);
+            let Some(&(own, times)) = self.normals.get(slot as usize) else {
+                // A degenerate face takes part in nothing but has corners to fill.
+                out[corner as usize] = self.sum_within(DVec3::ZERO, min_dot).stored(DVec3::ZERO);
+                continue;
+            };
+            let mask = self.masks[slot as usize];
+            if mask == 1 << slot && times == 1.0 {
+                continue;
+            }
+            if mask != last.0 {
+                let mut sum = NormalSum::default();
+                let within = self.normals.iter().enumerate();
+                for (_, &(n, times)) in within.filter(|(k, _)| mask >> k & 1 == 1) {
+                    sum.add(n, times);
+                }
+                last = (mask, sum.stored(own));
+                if !sum.has_direction() {
+                    // What is stored then is the own normal, which others do not share.
+                    out[corner as usize] = last.1;
+                    last.0 = 0;
+                    continue;
+                }
+            }
+            out[corner as usize] = last.1;
         }
     }
 
@@ -222,12 +292,18 @@ impl Group {
             self.faces.dedup();
         }
         self.normals.clear();
-        let normals = self.faces.iter().map(|&face| faces.normal_of_face(face));
-        for n in normals.filter(|&n| n != DVec3::ZERO) {
+        self.slots.clear();
+        for &face in &self.faces {
+            let n = faces.normal_of_face(face);
             match self.normals.last_mut() {
+                _ if n == DVec3::ZERO => {
+                    self.slots.push(NONE);
+                    continue;
+                }
                 Some((last, times)) if *last == n => *times += 1.0,
                 _ => self.normals.push((n, 1.0)),
             }
+            self.slots.push(self.normals.len() as u32 - 1);
         }
         if self.normals.len() > MAX_DISTINCT_NORMALS {
             self.merge_equal_normals();
@@ -279,12 +355,12 @@ impl NormalSum {
     /// Opposite normals cancel only up to rounding: each normal carries up to five roundings
     /// of its own and one of its product, each addition one more.
     fn stored(&self, own: DVec3) -> [f32; 3] {
+        stored(if self.has_direction() { self.sum } else { own })
+    }
+
+    fn has_direction(&self) -> bool {
         let rounding = gamma(self.additions.saturating_add(6)) * self.count;
-        if self.sum.abs().max_element() > rounding {
-            stored(self.sum)
-        } else {
-            stored(own)
-        }
+        self.sum.abs().max_element() > rounding
     }
 }
 

@@ -4,7 +4,7 @@
 //! else (exponents, octal, hexadecimal, comments, errors) ends the loop and is left to the
 //! grammar in `numbers`, which then comes back here.
 
-use crate::lex::is_blank;
+use crate::lex::{is_blank, skip_indent};
 use crate::number::{POWERS_OF_TEN, byte, digits};
 
 /// Where a loop stopped.
@@ -23,7 +23,9 @@ pub(super) struct Stop {
 fn next_token(bytes: &[u8], stop: &mut Stop, commas: bool) -> u8 {
     loop {
         let b = byte(bytes, stop.at);
-        if is_blank(b) {
+        if b == b'\n' {
+            stop.at = skip_indent(bytes, stop.at + 1);
+        } else if is_blank(b) {
             stop.at += 1;
         } else if b == b',' && commas && !stop.comma {
             stop.comma = true;
