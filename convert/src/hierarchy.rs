@@ -84,6 +84,10 @@ impl<'s> Hierarchy<'s> {
     /// `scenes` and `nodes`; gives the number of nodes. Children follow their parents, and those
     /// of one parent stand together.
     pub(crate) fn write(&self, json: &mut Json, scene: &Scene, with_extras: bool) -> usize {
+        // A scene without nodes is legal, but readers refuse it.
+        if self.roots.is_empty() {
+            return 0;
+        }
         json.key("scene").u64(0);
         json.key("scenes").array(|json| {
             json.object(|json| {
@@ -94,9 +98,6 @@ impl<'s> Hierarchy<'s> {
             });
         });
         let mut queue: Vec<Part> = self.roots.iter().copied().map(Part::Whole).collect();
-        if queue.is_empty() {
-            return 0;
-        }
         json.key("nodes").array(|json| {
             let mut next = 0;
             while next < queue.len() {

@@ -222,26 +222,32 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
         let tree = self.tree;
         if let Some(values) = tree.ints(numbers) {
             for (i, value) in values.iter().enumerate() {
-                let line_ends = i > 0 && values[i - 1] < 0;
-                self.between(i, tuple, line_ends)?;
+                let before = i.checked_sub(1).map(|b| f64::from(values[b]));
+                self.between(i, tuple, before)?;
                 write!(self.out, "{value}")?;
             }
         } else if let Some(values) = tree.floats(numbers) {
             for (i, value) in values.iter().enumerate() {
-                self.between(i, tuple, tuple > 1 && i % tuple == 0)?;
+                self.between(i, tuple, i.checked_sub(1).map(|b| values[b]))?;
                 write_number(self.out, *value)?;
             }
         }
         Ok(())
     }
 
-    fn between(&mut self, i: usize, tuple: usize, line_ends: bool) -> io::Result<()> {
-        if i == 0 {
-            return Ok(());
-        }
-        if tuple > 0 && i.is_multiple_of(tuple) {
+    /// What stands between a number and the one before it: a new line for each value of several
+    /// numbers, and behind each -1, which ends a face.
+    fn between(&mut self, i: usize, tuple: usize, before: Option<f64>) -> io::Result<()> {
+        let Some(before) = before else { return Ok(()) };
+        let ends_value = tuple > 0 && i.is_multiple_of(tuple);
+        if ends_value {
             self.out.write_all(b",")?;
         }
+        let line_ends = if tuple > 1 {
+            ends_value
+        } else {
+            before == -1.0
+        };
         if line_ends {
             self.out.write_all(b"\n")?;
             self.indent += 1;

@@ -4,5 +4,7 @@
 
 mod cpu {
     mod corpus;
+    mod models;
     mod rules;
+    mod validator;
 }

@@ -47,5 +47,15 @@ pub fn write(
 pub fn write_json(path: &Path, document: &Value) -> Result<u64, String> {
     let text = json::text(document);
     write(path, |out| out.write_all(text.as_bytes()))
-        .map_err(|error| format!("{}: {error}", path.display()))
+        .map_err(|error| format!("{}: {}", path.display(), cause(&error)))
+}
+
+/// What the system says. `tempfile` adds the temporary name, which says nothing to the user and
+/// differs from run to run.
+pub fn cause(error: &io::Error) -> String {
+    let text = error.to_string();
+    match text.split_once(" at path ") {
+        Some((cause, _)) => cause.to_owned(),
+        None => text,
+    }
 }

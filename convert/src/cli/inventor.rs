@@ -26,16 +26,17 @@ impl<'a> Text<'a> {
             file: 0,
             bytes,
         };
-        let problems = match unsupported(&parse.tree) {
-            Some(problem) => vec![problem],
-            None => parse.problems,
+        // What the parser says about bytes of another format means nothing.
+        let (problems, dropped) = match unsupported(&parse.tree) {
+            Some(problem) => (vec![problem], 0),
+            None => (parse.problems, parse.problems_dropped),
         };
         let mut diagnostics = source.diagnostics(problems);
-        if parse.problems_dropped > 0 {
+        if dropped > 0 {
             diagnostics.push(Diagnostic {
                 severity: Severity::Warning,
                 code: "more-problems",
-                message: format!("{} more problems are not shown", parse.problems_dropped),
+                message: format!("{dropped} more problems are not shown"),
                 hint: String::new(),
                 file: Arc::clone(name),
                 pos: SourcePos::default(),

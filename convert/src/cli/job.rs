@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::args::{Args, Format};
 use super::inputs::Input;
-use super::{inventor, model};
+use super::{atomic, inventor, model};
 
 /// What is the same for all inputs.
 #[derive(Clone, Debug)]
@@ -125,7 +125,7 @@ fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
     make_folder_of(path)?;
     outcome.bytes_out = text
         .write(path)
-        .map_err(|error| format!("{}: {error}", path.display()))?;
+        .map_err(|error| format!("{}: {}", path.display(), atomic::cause(&error)))?;
     outcome.counts = json!({ "nodes": text.node_count() });
     Ok(())
 }
@@ -136,7 +136,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     make_folder_of(path)?;
     let images = model::Images(&files);
     let report = convert::write_file(&scene, &settings.options, &images, path)
-        .map_err(|error| error.to_string())?;
+        .map_err(|error| words(&error))?;
     outcome.bytes_out = report.counts.bytes;
     outcome.counts = counts(&report, scene.instances.len());
     if scene.instances.is_empty() {
@@ -172,6 +172,16 @@ fn resolved(outcome: &mut Outcome, files: &FileLoader) -> Result<Resolved, Strin
     let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
     outcome.diagnostics.append(&mut resolved.diagnostics);
     Ok(resolved)
+}
+
+fn words(error: &convert::Error) -> String {
+    match error {
+        convert::Error::Io {
+            path: Some(path),
+            source,
+        } => format!("{}: {}", path.display(), atomic::cause(source)),
+        other => other.to_string(),
+    }
 }
 
 fn make_folder_of(path: &Path) -> Result<(), String> {

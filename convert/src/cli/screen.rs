@@ -35,7 +35,7 @@ impl Screen {
     pub fn tick(&mut self, finished: usize) {
         let is_long = self.count > 1 || self.start.elapsed() > PATIENCE;
         if self.bar.is_none() && self.shows_progress && is_long && finished < self.count {
-            self.bar = Some(bar(self.count));
+            self.bar = Some(bar(self.count).with_elapsed(self.start.elapsed()));
         }
         if let Some(bar) = &self.bar {
             bar.set_position(finished as u64);

@@ -159,3 +159,26 @@ fn long_lists_of_messages_are_cut_and_quiet_shows_errors_only() {
     assert!(run.err.starts_with("a.iv:42:"), "{}", run.err);
     assert_eq!(run.err.matches("[").count(), 1, "{}", run.err);
 }
+
+/// The parser keeps a limited number of problems; that there were more is said for both kinds of
+/// output, except where the text could not be read at all.
+#[test]
+fn problems_beyond_the_parsers_limit_are_counted() {
+    let limit = iv_parser::Limits::default().problems;
+    let braces = CUBE.to_owned() + &"\n}".repeat(limit + 7);
+    let place = Place::new()
+        .model("a.iv", &braces)
+        .file("v2.wrl", &format!("#VRML V2.0 utf8\n{braces}"));
+    let rows = [
+        ("a.iv", true),
+        ("a.iv -o b.iv", true),
+        ("v2.wrl -o b.iv", false),
+    ];
+    for (args, is_said) in rows {
+        let run = place.run(&format!("{args} --report r.json"));
+        let report = place.json("r.json");
+        let said = report["inputs"][0]["diagnostics"].to_string();
+        let is_in = said.contains("\"7 more problems are not shown\"");
+        assert_eq!(is_in, is_said, "{args}: {}", run.err);
+    }
+}

@@ -97,3 +97,22 @@ fn formats() {
     assert!(bytes("web/b.iv") != bytes("a.iv"));
     assert!(bytes("again.glb") == bytes("a.glb"));
 }
+
+/// Nobody can make files in `/proc`.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_error_names_the_output_and_no_temporary_file() {
+    let place = Place::new().model("a.iv", CUBE);
+    let rows = [
+        "a.iv -o /proc/a.glb",
+        "a.iv -o /proc/a.gltf",
+        "a.iv -o /proc/a.iv",
+        "a.iv --report /proc/a.json",
+    ];
+    for args in rows {
+        let run = place.run(args);
+        assert_eq!(run.code, 2, "{args}: {}", run.err);
+        assert!(run.err.contains("error: /proc/a."), "{args}: {}", run.err);
+        assert!(!run.err.contains(".ivconvert-"), "{args}: {}", run.err);
+    }
+}

@@ -41,8 +41,6 @@ fn an_empty_scene_is_a_valid_model() {
             "version": "2.0",
             "generator": concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")),
         },
-        "scene": 0,
-        "scenes": [{}],
     });
     assert_eq!(converted.json, want);
     assert!(converted.bin.is_empty());

@@ -132,7 +132,7 @@ impl Builder<'_> {
                 };
                 self.nodes[node.0 as usize].children = stand_in.into_iter().collect();
                 self.diagnostics.push(Diagnostic {
-                    severity: Severity::Warning,
+                    severity: Severity::Error,
                     code: "include",
                     message: format!("`{name}` is not included: {why}"),
                     hint: "it is looked for beside this file, then beside the first file, then in the --search folders".to_owned(),

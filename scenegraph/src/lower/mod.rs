@@ -92,6 +92,7 @@ impl Builder<'_> {
             header,
         });
         let mut problems = parsed.problems;
+        let mut dropped = parsed.problems_dropped;
         let readable = header.dialect != Dialect::Vrml2 && header.encoding == Encoding::Ascii;
         let root = if readable {
             let mut file = File {
@@ -107,6 +108,7 @@ impl Builder<'_> {
             file.root()
         } else {
             problems.clear();
+            dropped = 0;
             problems.push(unreadable(header.dialect));
             self.add(Node {
                 kind: Kind::Known(Class::Separator),
@@ -125,7 +127,7 @@ impl Builder<'_> {
             file: index,
             bytes,
         };
-        let dropped = parsed.problems_dropped + problems.len().saturating_sub(self.limits.problems);
+        dropped += problems.len().saturating_sub(self.limits.problems);
         problems.truncate(self.limits.problems);
         self.diagnostics.extend(source.diagnostics(problems));
         if dropped > 0 {
