@@ -94,7 +94,7 @@ fn other_files_come_from_the_own_folder_and_search_folders_only() {
         assert_eq!(drawn, meshes, "{search}: {}", run.err);
         assert_eq!(document.images().count(), images, "{search}: {}", run.err);
         assert_eq!(
-            run.err.contains("warning[include]"),
+            run.err.contains("error[include]"),
             meshes == 1,
             "{search}: {}",
             run.err

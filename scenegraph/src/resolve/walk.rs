@@ -204,7 +204,7 @@ impl<'g> Walk<'g> {
             // Children of a level-of-detail group go from fine to coarse.
             Class::LOD | Class::LevelOfDetail => self.open(id, 0, count.min(1), false),
             Class::Array | Class::MultipleCopy => {
-                let total = copies(class, node);
+                let total = if count == 0 { 0 } else { copies(class, node) };
                 let keep = Keep::All(Box::new(self.state.clone()));
                 self.push(id, count, count, keep, Some(Copies { next: 0, total }));
             }
