@@ -80,7 +80,7 @@ fn other_files_come_from_the_own_folder_and_search_folders_only() {
     let rows = [
         ("", 1, 1, 0),
         ("--search parts", 1, 3, 0),
-        ("--search images", 0, 1, 1),
+        ("--search images", 1, 1, 1),
         ("--search images --search parts", 0, 3, 1),
     ];
     for (search, code, meshes, images) in rows {
