@@ -42,7 +42,7 @@ pub(crate) fn byte(bytes: &[u8], at: usize) -> u8 {
 }
 
 #[inline(always)]
-pub(crate) fn digits(bytes: &[u8], mut at: usize, mantissa: &mut u64) -> usize {
+fn digits(bytes: &[u8], mut at: usize, mantissa: &mut u64) -> usize {
     loop {
         let d = byte(bytes, at).wrapping_sub(b'0');
         if d > 9 {

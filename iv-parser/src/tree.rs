@@ -60,7 +60,7 @@ pub struct Field<'a> {
     /// Whether `~` follows.
     pub ignored: bool,
     /// What it is connected to.
-    pub connection: Option<Connection<'a>>,
+    pub connection: Option<Box<Connection<'a>>>,
     /// Name and value.
     pub span: Span,
 }

@@ -137,10 +137,10 @@ impl<'a> Parser<'a> {
             );
             return;
         };
-        self.tree.fields[field.0 as usize].connection = Some(Connection {
+        self.tree.fields[field.0 as usize].connection = Some(Box::new(Connection {
             master,
             output: b"",
-        });
+        }));
         match self.frames.last().copied() {
             Some(Frame::Body { node, .. }) if master == Child::Node(node) => {
                 let below = self.frames.len() - 1;

@@ -300,6 +300,60 @@ fn long_lists_turn_into_floats_late() {
     assert_eq!(parsed.tree.octal_ints(*span)[1002], 8);
 }
 
+/// Runs of numbers of all lengths, against the standard library's parser.
+#[test]
+fn runs_round_like_the_standard_library() {
+    let mut seed = 0x2545_f491_4f6c_dd1d_u64;
+    let mut random = move |below: u64| {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        seed % below
+    };
+    for floats in [false, true] {
+        let mut text = String::from("A { f [ ");
+        let mut expected = Vec::new();
+        for i in 0..50_000 {
+            let sign = ["", "-", "+"][random(3) as usize];
+            let digits = random(12) as u32;
+            let whole = random(10_u64.pow(digits.max(1))).min(2_000_000_000);
+            let token = match (floats, random(3)) {
+                (true, 0) => format!("{sign}{whole}.{}", random(10_u64.pow(digits + 1))),
+                (true, 1) => format!(
+                    "{sign}.{:0width$}e{}",
+                    whole,
+                    random(9),
+                    width = digits as usize
+                ),
+                _ => format!("{sign}{whole}"),
+            };
+            expected.push(token.parse::<f64>().unwrap());
+            let separators = [" ", ", ", ",", "\n          ", " # c\n", "\t,\r\n"];
+            text.push_str(&token);
+            text.push_str(separators[if i == 0 { 1 } else { random(6) as usize }]);
+        }
+        text.push_str(" ] }");
+        let parsed = parse(text.as_bytes());
+        let Some(Child::Node(id)) = parsed.tree.children_of_root().first() else {
+            panic!()
+        };
+        let Some(Item::Field(f)) = parsed.tree.items(*id).first() else {
+            panic!()
+        };
+        let Value::Numbers { numbers, .. } = &parsed.tree.field(*f).value else {
+            panic!()
+        };
+        let found: Vec<f64> = match parsed.tree.ints(numbers) {
+            Some(ints) => ints.iter().map(|&i| f64::from(i)).collect(),
+            None => parsed.tree.floats(numbers).unwrap().to_vec(),
+        };
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found, expected);
+        }
+    }
+}
+
 #[test]
 fn depth_is_limited() {
     let text = "A{".repeat(5000);

@@ -91,6 +91,13 @@ impl<'a> File<'_, '_, 'a, '_> {
         let tree = self.tree;
         let spec = class.spec();
         let mut strays = 0;
+        // Exact room: there are many nodes with a field or two.
+        let is_field = |item: &&Item<'_>| matches!(item, Item::Field(_));
+        let fields = tree.items(id).iter().filter(is_field).count();
+        node.fields.reserve_exact(fields);
+        if spec.is_group() {
+            node.children.reserve_exact(tree.items(id).len() - fields);
+        }
         for item in tree.items(id) {
             match *item {
                 Item::Child(child) => match self.child(child) {
