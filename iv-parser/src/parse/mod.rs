@@ -10,6 +10,8 @@ mod plain;
 mod recover;
 mod value;
 
+use std::collections::HashSet;
+
 use crate::diagnostic::Severity;
 use crate::header::read_header;
 use crate::lex;
@@ -45,7 +47,7 @@ pub fn parse_with<'a>(bytes: &'a [u8], limits: &Limits) -> Parse<'a> {
         frames: Vec::new(),
         open_items: Vec::new(),
         open_atoms: Vec::new(),
-        odd_names: Vec::new(),
+        odd_names: HashSet::new(),
         run: numbers::Run::default(),
         problems,
         problems_dropped: 0,
@@ -95,7 +97,7 @@ struct Parser<'a> {
     open_items: Vec<Item<'a>>,
     open_atoms: Vec<Atom<'a>>,
     /// DEF names that hold braces or brackets.
-    odd_names: Vec<&'a [u8]>,
+    odd_names: HashSet<&'a [u8]>,
     /// Buffers for the run of numbers being read.
     run: numbers::Run,
     problems: Vec<Problem>,
@@ -176,6 +178,15 @@ impl<'a> Parser<'a> {
                 self.at = end;
                 self.skip_trivia();
                 let (name, span) = self.use_name();
+                if name.is_empty() {
+                    self.warn(
+                        "bad-use",
+                        "`USE` is not followed by a name",
+                        "it was skipped",
+                        Span::new(start, end),
+                    );
+                    return Some(Child::Null);
+                }
                 Some(Child::Use(name, span))
             }
             b"NULL" if !self.is_body_next(end) => {
@@ -211,7 +222,7 @@ impl<'a> Parser<'a> {
                 continue;
             }
             if name_end == full && self.first_bracket(name_start, full) < full {
-                self.odd_names.push(name);
+                self.odd_names.insert(name);
             }
             self.at = lex::skip_trivia(self.bytes, class_end) + 1;
             let class = &self.bytes[class_start..class_end];
@@ -241,7 +252,7 @@ impl<'a> Parser<'a> {
         let full = lex::to_blank(self.bytes, start);
         let cut = self.first_bracket(start, full);
         let whole: &'a [u8] = &self.bytes[start..full];
-        let end = if cut < full && self.odd_names.contains(&whole) {
+        let end = if cut < full && self.odd_names.contains(whole) {
             full
         } else {
             cut

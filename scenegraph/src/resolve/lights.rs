@@ -33,9 +33,10 @@ impl Walk<'_> {
         if !node.flag("on") {
             return true;
         }
-        let Some(placement) = self.place(id) else {
+        if !self.can_place(node) {
             return true;
-        };
+        }
+        let placement = self.place(id);
         let light = Light {
             placement,
             kind,
@@ -60,9 +61,10 @@ impl Walk<'_> {
             Class::FrustumCamera => frustum(node),
             _ => return false,
         };
-        let Some(placement) = self.place(id) else {
+        if !self.can_place(node) {
             return true;
-        };
+        }
+        let placement = self.place(id);
         let camera = Camera {
             placement,
             position: DVec3::from(node.triple("position")),

@@ -25,7 +25,8 @@ impl Walk<'_> {
         } else {
             Style::Filled
         };
-        if style == Style::Invisible {
+        // What cannot be placed is not made.
+        if style == Style::Invisible || !self.can_place(self.graph.node(id)) {
             return true;
         }
         let graph = self.graph;
@@ -49,9 +50,8 @@ impl Walk<'_> {
                 .shapes
                 .measure(&job, |measure| builder.measure(measure)),
         };
-        if let Some(made) = made
-            && let Some(placement) = self.place(id)
-        {
+        if let Some(made) = made {
+            let placement = self.place(id);
             let material = self.material(&job, &made);
             let light_set = self.builder.light_set(state.lights).unwrap_or_else(|| {
                 self.remarks.warn(

@@ -346,9 +346,8 @@ impl<'g> Walk<'g> {
         self.state.transform(&local);
     }
 
-    /// Where something of the current state hangs; `None` if it cannot be placed.
-    pub(super) fn place(&mut self, id: NodeId) -> Option<Placement> {
-        let node = self.graph.node(id);
+    /// Whether something of the current state can be placed; says so if not.
+    pub(super) fn can_place(&mut self, node: &Node) -> bool {
         if !self.state.world.is_finite() {
             self.remarks.add(
                 Severity::Error,
@@ -357,7 +356,7 @@ impl<'g> Walk<'g> {
                 "what they place was left out",
                 node.pos,
             );
-            return None;
+            return false;
         }
         if self.builder.items() >= self.options.limits.items {
             self.remarks.add(
@@ -367,15 +366,21 @@ impl<'g> Walk<'g> {
                 "the rest was left out",
                 node.pos,
             );
-            return None;
+            return false;
         }
-        Some(Placement {
+        true
+    }
+
+    /// Where something of the current state hangs; to be asked for after [`Self::can_place`].
+    pub(super) fn place(&mut self, id: NodeId) -> Placement {
+        let node = self.graph.node(id);
+        Placement {
             node: self.scene_node(self.state.base),
             parent_from_local: self.state.relative,
             world_from_local: self.state.world,
             name: node.name.clone(),
             pos: node.pos,
-        })
+        }
     }
 
     /// The scene's node for the frame number `base`, made with all those around it if need be.
