@@ -5,6 +5,7 @@
 mod cpu {
     mod corpus;
     mod models;
+    mod robustness;
     mod rules;
     mod validator;
 }

@@ -183,6 +183,8 @@ struct Group {
     normals: Vec<(DVec3, f64)>,
     /// For each normal a bit for each one within the crease angle, its own included.
     masks: Vec<u64>,
+    /// The sums made so far, by mask.
+    sums: Vec<(u64, Option<[f32; 3]>)>,
 }
 
 /// No place in a list.
@@ -241,7 +243,7 @@ impl Group {
                 }
             }
         }
-        let mut last = (0, [0.0; 3]);
+        self.sums.clear();
         for (i, &corner) in corners.iter().enumerate() {
             let face = faces.corner_face[corner as usize];
             // The corners are in the order of the faces unless those had to be sorted.
@@ -252,29 +254,33 @@ impl Group {
             let slot = at.map_or(NONE, |at| self.slots[at]);
             let Some(&(own, times)) = self.normals.get(slot as usize) else {
                 // A degenerate face takes part in nothing but has corners to fill.
-                out[corner as usize] = self.sum_within(DVec3::ZERO, min_dot).stored(DVec3::ZERO);
+                let sum = self.sum_within(DVec3::ZERO, min_dot);
+                out[corner as usize] = sum.stored(DVec3::ZERO);
                 continue;
             };
             let mask = self.masks[slot as usize];
             if mask == 1 << slot && times == 1.0 {
                 continue;
             }
-            if mask != last.0 {
-                let mut sum = NormalSum::default();
-                let within = self.normals.iter().enumerate();
-                for (_, &(n, times)) in within.filter(|(k, _)| mask >> k & 1 == 1) {
-                    sum.add(n, times);
-                }
-                last = (mask, sum.stored(own));
-                if !sum.has_direction() {
-                    // What is stored then is the own normal, which others do not share.
-                    out[corner as usize] = last.1;
-                    last.0 = 0;
-                    continue;
-                }
-            }
-            out[corner as usize] = last.1;
+            out[corner as usize] = self.sum_of(mask).unwrap_or_else(|| stored(own));
         }
+    }
+
+    /// The normalised sum of the normals in `mask`, computed once; `None` if it has no direction.
+    fn sum_of(&mut self, mask: u64) -> Option<[f32; 3]> {
+        if let Some((_, known)) = self.sums.iter().find(|(of, _)| *of == mask) {
+            return *known;
+        }
+        let mut sum = NormalSum::default();
+        let mut rest = mask;
+        while rest != 0 {
+            let (n, times) = self.normals[rest.trailing_zeros() as usize];
+            sum.add(n, times);
+            rest &= rest - 1;
+        }
+        let result = sum.has_direction().then(|| stored(sum.sum));
+        self.sums.push((mask, result));
+        result
     }
 
     /// Fills in the distinct normals of the group's faces, each face counted once.

@@ -3,8 +3,8 @@
 //! The numbers are those of the rule list in the format guide; `original_files` runs the files of
 //! that list too, where they are at hand. Where Coin itself is wrong, the row holds what is right.
 
-mod check;
-mod table;
+pub mod check;
+pub mod table;
 
 use std::fs;
 use std::path::Path;

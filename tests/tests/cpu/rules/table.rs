@@ -225,6 +225,7 @@ pub const RULES: &[Rule] = &[
             PointSet { vertexProperty VertexProperty { vertex 0 4 0 } } }",
         draws: &[&[[0.0, 4.0, 0.0]]],
         notes: &["north"],
+        codes: &["glued-brace"],
         ..RULE
     },
     Rule {
@@ -316,11 +317,21 @@ pub const RULES: &[Rule] = &[
         ..RULE
     },
     Rule {
+        number: 29,
+        name: "so the points of a VertexProperty keep the normals of the state",
+        text: "Separator { NormalBinding { value PER_FACE } Normal { vector 0 0.6 0.8 }
+            PointSet { vertexProperty VertexProperty { vertex 0 0 3 normalBinding OVERALL } } }",
+        draws: &[&[[0.0, 0.0, 3.0]]],
+        normal: Some([0.0, 0.6, 0.8]),
+        ..RULE
+    },
+    Rule {
         number: 30,
         name: "a connected field keeps the value written",
         text: "Separator { Translation { translation 4 5 6 = Cone { } . height }
             PointSet { vertexProperty VertexProperty { vertex 0 0 0 } } }",
         draws: &[&[[4.0, 5.0, 6.0]]],
+        codes: &["connection"],
         ..RULE
     },
     Rule {
@@ -396,7 +407,7 @@ pub const RULES: &[Rule] = &[
         name: "an ignored field, and a connection to nothing",
         text: "Separator { Cube { width 4 ~ depth = USE gone.width height 6 } }",
         counts: Some([12, 0, 0]),
-        codes: &["connection"],
+        codes: &["connection", "unknown-name"],
         ..RULE
     },
     Rule {

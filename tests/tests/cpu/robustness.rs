@@ -1,0 +1,201 @@
+//! Any input ends: without a panic, in bounded time and memory, with the guarantees kept.
+
+use std::fs;
+use std::panic::catch_unwind;
+use std::path::Path;
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+use samples::{ALL, path_of};
+use scenegraph::{FileLoader, ResolveLimits, ResolveOptions, load, resolve};
+use tests::mutate::{Rng, mutate};
+use tests::{fuzz_body, hostile};
+
+/// Longest time for one input of [`mutated_inputs`]; measured ones take milliseconds.
+const SLOW: Duration = Duration::from_secs(2);
+
+/// Seconds for [`mutated_inputs`]; `FUZZ_SECONDS` and `FUZZ_SEED` look further.
+const BUDGET: u64 = 3;
+
+/// Inputs at the least, however slow the machine.
+const FEWEST: usize = 200;
+
+/// The default limits, with a tenth of the work: it is done in the test profile here, several times.
+const LIMITS: ResolveLimits = ResolveLimits {
+    steps: 2_000_000,
+    depth: 1000,
+    items: 200_000,
+    geometry_bytes: 1 << 30,
+};
+
+/// Remarks on one file: the parser keeps 200, the rest is counted.
+const MOST_REMARKS: usize = 500;
+
+/// Bytes of one remark.
+const LONGEST_REMARK: usize = 2_000;
+
+fn sample_texts() -> Vec<Vec<u8>> {
+    let read = |s| fs::read(path_of(s)).expect("a sample");
+    ALL.iter()
+        .map(read)
+        .filter(|text| text.len() < 10_000)
+        .collect()
+}
+
+#[test]
+fn samples_and_rules() {
+    for sample in ALL {
+        fuzz_body::all(&fs::read(path_of(sample)).expect("a sample"));
+    }
+    for rule in super::rules::table::RULES {
+        fuzz_body::all(format!("#Inventor V2.1 ascii\n{}", rule.text).as_bytes());
+    }
+}
+
+#[test]
+fn mutated_inputs() {
+    let mut texts = sample_texts();
+    let rule = |r: &super::rules::check::Rule| format!("#Inventor V2.1 ascii\n{}", r.text);
+    texts.extend(
+        super::rules::table::RULES
+            .iter()
+            .map(|r| rule(r).into_bytes()),
+    );
+    let number = |name, usual| {
+        let given = std::env::var(name).ok();
+        given.and_then(|n| n.parse().ok()).unwrap_or(usual)
+    };
+    let budget = Duration::from_secs(number("FUZZ_SECONDS", BUDGET));
+    let mut rng = Rng::new(number("FUZZ_SEED", 1));
+    let start = Instant::now();
+    let mut count = 0;
+    while count < FEWEST || start.elapsed() < budget {
+        let base = &texts[rng.below(texts.len())];
+        let input = mutate(&mut rng, base, &texts);
+        let began = Instant::now();
+        let watch = Watch::over(&input);
+        let result = catch_unwind(|| fuzz_body::all(&input));
+        drop(watch);
+        let took = began.elapsed();
+        if result.is_err() || took > SLOW {
+            panic!("input {count} took {took:?}; kept as {}", keep(&input));
+        }
+        count += 1;
+    }
+    println!("{count} inputs");
+}
+
+/// Keeps an input for a closer look; says where.
+fn keep(input: &[u8]) -> String {
+    let path = std::env::temp_dir().join("ivory-input.iv");
+    fs::write(&path, input).expect("a file for the input");
+    path.display().to_string()
+}
+
+/// Ends the process with a message when an input never ends.
+struct Watch {
+    /// Dropped when the input has ended.
+    _ended: mpsc::Sender<()>,
+}
+
+impl Watch {
+    fn over(input: &[u8]) -> Self {
+        let input = input.to_vec();
+        let (sender, receiver) = mpsc::channel();
+        std::thread::spawn(move || {
+            let result = receiver.recv_timeout(10 * SLOW);
+            if result == Err(mpsc::RecvTimeoutError::Timeout) {
+                eprintln!("an input does not end; kept as {}", keep(&input));
+                std::process::abort();
+            }
+        });
+        Self { _ended: sender }
+    }
+}
+
+#[test]
+fn hostile_inputs() {
+    let mut failures = Vec::new();
+    for case in hostile::ALL {
+        let bytes = (case.make)();
+        let start = Instant::now();
+        let parsed = iv_parser::parse(&bytes);
+        fuzz_body::print(&parsed.tree);
+        let resolved = fuzz_body::resolve_within(&bytes, LIMITS);
+        let took = start.elapsed();
+        let codes: Vec<_> = resolved.diagnostics.iter().map(|d| d.code).collect();
+        let shown = &codes[..codes.len().min(4)];
+        println!(
+            "{:8.3} s {}: {} {shown:?}",
+            took.as_secs_f64(),
+            case.name,
+            codes.len()
+        );
+        if codes.len() > MOST_REMARKS {
+            failures.push(format!("{}: {} remarks", case.name, codes.len()));
+        }
+        if took > Duration::from_secs(10) {
+            failures.push(format!("{} took {took:?}", case.name));
+        }
+        let longest = resolved
+            .diagnostics
+            .iter()
+            .map(|d| d.to_string().len())
+            .max();
+        if longest > Some(LONGEST_REMARK) {
+            failures.push(format!("{}: a remark of {longest:?} bytes", case.name));
+        }
+        let expected = if case.code.is_empty() {
+            codes.is_empty()
+        } else {
+            codes.contains(&case.code)
+        };
+        if !expected {
+            failures.push(format!("{}: {shown:?}, wanted {}", case.name, case.code));
+        }
+    }
+    if let Some(peak) = peak_memory_kib() {
+        println!("peak memory {} MiB", peak >> 10);
+        assert!(peak < 4 << 20, "peak memory {} MiB", peak >> 10);
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Of the whole process, where the system tells.
+fn peak_memory_kib() -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse().ok()
+}
+
+#[test]
+fn files_in_a_ring() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let text = format!("#Inventor V2.1 ascii\nSeparator {{ Cube {{ }} {text} }}");
+        fs::write(folder.path().join(name), text).expect("a file");
+    };
+    write("self.iv", "File { name \"self.iv\" }");
+    write("a.iv", "File { name \"b.iv\" }");
+    write("b.iv", "File { name \"c.iv\" }");
+    write("c.iv", "File { name \"a.iv\" } File { name \"a.iv\" }");
+    // 2^12 ways through twelve files that each include the next twice.
+    for i in 0..12 {
+        let next = format!("File {{ name \"n{}.iv\" }}", i + 1);
+        write(&format!("n{i}.iv"), &next.repeat(2));
+    }
+    write("n12.iv", "");
+    for (name, cubes, codes) in [
+        ("self.iv", 1, &["include"][..]),
+        ("a.iv", 3, &["include", "include"]),
+        ("n0.iv", 8191, &[]),
+    ] {
+        let bytes = fs::read(folder.path().join(name)).expect("a file");
+        let loader = FileLoader::new([folder.path()]);
+        let graph = load(&bytes, name, Path::new(folder.path()), &loader);
+        let resolved = resolve(&graph, &ResolveOptions::default());
+        assert_eq!(resolved.scene.instances.len(), cubes, "{name}");
+        let ours: Vec<_> = graph.diagnostics.iter().map(|d| d.code).collect();
+        assert_eq!(ours, codes, "{name}");
+    }
+}
