@@ -3,6 +3,7 @@
 
 pub mod corpus;
 pub mod fuzz_body;
+pub mod glb;
 pub mod hostile;
 pub mod measure;
 pub mod mutate;

@@ -4,8 +4,12 @@
 
 mod cpu {
     mod corpus;
+    mod determinism;
+    mod glb;
     mod models;
+    mod precision;
     mod robustness;
+    mod roundtrip;
     mod rules;
     mod validator;
 }

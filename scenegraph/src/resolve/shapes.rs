@@ -38,6 +38,7 @@ impl Walk<'_> {
             state: &state,
             lit: state.light_model == LightModel::Phong,
             style,
+            shared: self.is_shared(id),
         };
         let builder = &mut self.builder;
         let made = match self.options.geometry {

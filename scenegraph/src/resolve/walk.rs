@@ -38,6 +38,8 @@ struct Open {
     end: usize,
     keep: Keep,
     copies: Option<Copies>,
+    /// Whether what is in it can come again.
+    shared: bool,
 }
 
 /// The copies of an `Array` or `MultipleCopy` still to come.
@@ -64,6 +66,8 @@ pub(super) struct Walk<'g> {
     pub remarks: Remarks,
     pub shapes: ShapeMaker,
     pub vrml1: bool,
+    /// For each node whether it is the child of several.
+    several_parents: Vec<bool>,
     stack: Vec<Open>,
     frames: Vec<Frame>,
     steps: usize,
@@ -87,6 +91,7 @@ impl<'g> Walk<'g> {
             remarks: Remarks::default(),
             shapes: ShapeMaker::default(),
             vrml1,
+            several_parents: several_parents(graph),
             stack: Vec::new(),
             frames: Vec::new(),
             steps: 0,
@@ -269,13 +274,20 @@ impl<'g> Walk<'g> {
         });
         self.state.base = self.frames.len();
         self.state.relative = DAffine3::IDENTITY;
+        let shared = copies.is_some() || self.is_shared(node);
         self.stack.push(Open {
             node,
             next,
             end,
             keep,
             copies,
+            shared,
         });
+    }
+
+    /// Whether a node can be visited again: it has several parents, or something around it has.
+    pub(super) fn is_shared(&self, id: NodeId) -> bool {
+        self.several_parents[id.0 as usize] || self.stack.last().is_some_and(|open| open.shared)
     }
 
     fn leave(&mut self, open: Open) {
@@ -409,6 +421,16 @@ impl<'g> Walk<'g> {
         }
         parent
     }
+}
+
+fn several_parents(graph: &Graph) -> Vec<bool> {
+    let mut has_one = vec![false; graph.nodes().len()];
+    let mut has_more = has_one.clone();
+    for child in graph.nodes().iter().flat_map(|node| &node.children) {
+        let index = child.0 as usize;
+        has_more[index] |= std::mem::replace(&mut has_one[index], true);
+    }
+    has_more
 }
 
 fn copies(class: Class, node: &Node) -> u64 {

@@ -78,6 +78,8 @@ pub struct Job<'a> {
     pub lit: bool,
     /// How polygons are drawn.
     pub style: Style,
+    /// Whether the shape can come again; only then is its mesh looked up and remembered.
+    pub shared: bool,
 }
 
 impl ShapeMaker {
@@ -115,8 +117,8 @@ impl ShapeMaker {
         keep: impl FnOnce(Mesh) -> MeshId,
     ) -> Option<Made> {
         let attributes = Attributes::of(job);
-        let key = Self::key(job, &attributes);
-        if let Some(known) = self.cache.get(&key) {
+        let key = job.shared.then(|| Self::key(job, &attributes));
+        if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
         let made = if self.bytes > byte_limit {
@@ -137,15 +139,15 @@ impl ShapeMaker {
                 }
             })
         };
-        self.cache.insert(key, made);
+        self.cache.extend(key.map(|key| (key, made)));
         made
     }
 
     /// As [`Self::mesh`], without making it.
     pub fn measure(&mut self, job: &Job<'_>, keep: impl FnOnce(Measure) -> MeshId) -> Option<Made> {
         let attributes = Attributes::of(job);
-        let key = Self::key(job, &attributes);
-        if let Some(known) = self.cache.get(&key) {
+        let key = job.shared.then(|| Self::key(job, &attributes));
+        if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
         let made = measure::measure(job, &attributes).map(|measure| Made {
@@ -153,7 +155,7 @@ impl ShapeMaker {
             textured: job.state.texture.is_some(),
             mesh: keep(measure),
         });
-        self.cache.insert(key, made);
+        self.cache.extend(key.map(|key| (key, made)));
         made
     }
 

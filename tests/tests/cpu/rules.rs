@@ -25,6 +25,22 @@ fn rows() {
 }
 
 #[test]
+fn every_row_can_fail() {
+    for rule in table::RULES {
+        let other = check::Rule {
+            text: "Separator { Cube { width 7 } Sphere { } }",
+            ..*rule
+        };
+        assert!(
+            check::check(&other).is_err(),
+            "{} ({})",
+            rule.number,
+            rule.name
+        );
+    }
+}
+
+#[test]
 fn every_rule_has_a_row() {
     let mut numbers: Vec<u8> = table::RULES.iter().map(|r| r.number).collect();
     numbers.sort_unstable();

@@ -1,0 +1,112 @@
+//! Printing loses nothing: what is printed and read again resolves to the same scene.
+
+use std::fs;
+use std::path::Path;
+
+use iv_parser::{Encoding, SourcePos, parse};
+use scenegraph::scene::{Placement, Scene, TextureSource};
+use scenegraph::{ResolveOptions, load, resolve};
+use tests::fuzz_body::print;
+
+use super::models::{Model, corpus, samples};
+
+/// A scene without the places of the text it was read from.
+fn scene_of(bytes: &[u8], model: &Model) -> Scene {
+    let beside = model.path.parent().unwrap_or(Path::new("."));
+    let graph = load(bytes, &model.name, beside, &model.loader());
+    let mut scene = resolve(&graph, &ResolveOptions::default()).scene;
+    let nowhere = SourcePos::default();
+    let clear = |placement: &mut Placement| placement.pos = nowhere;
+    scene.nodes.iter_mut().for_each(|n| n.pos = nowhere);
+    scene.meshes.iter_mut().for_each(|m| m.pos = nowhere);
+    scene.materials.iter_mut().for_each(|m| m.pos = nowhere);
+    scene.textures.iter_mut().for_each(|t| t.pos = nowhere);
+    scene
+        .instances
+        .iter_mut()
+        .for_each(|i| clear(&mut i.placement));
+    scene
+        .lights
+        .iter_mut()
+        .for_each(|l| clear(&mut l.placement));
+    scene
+        .cameras
+        .iter_mut()
+        .for_each(|c| clear(&mut c.placement));
+    scene
+}
+
+/// What is not equal, if anything.
+fn difference(a: &Scene, b: &Scene) -> Option<&'static str> {
+    let parts = [
+        ("nodes", a.nodes == b.nodes),
+        ("instances", a.instances == b.instances),
+        ("meshes", a.meshes == b.meshes),
+        ("materials", a.materials == b.materials),
+        ("textures", a.textures == b.textures),
+        ("lights", a.lights == b.lights),
+        ("cameras", a.cameras == b.cameras),
+        ("light sets", a.light_sets == b.light_sets),
+        ("environments", a.environments == b.environments),
+    ];
+    parts.iter().find(|(_, same)| !same).map(|(name, _)| *name)
+}
+
+fn check(model: &Model) -> Result<(), String> {
+    let bytes = fs::read(&model.path).map_err(|e| e.to_string())?;
+    let parsed = parse(&bytes);
+    if parsed.tree.header.encoding != Encoding::Ascii {
+        return Ok(());
+    }
+    let text = print(&parsed.tree);
+    let again = parse(&text);
+    if print(&again.tree) != text {
+        return Err("a second print differs".to_owned());
+    }
+    let (first, second) = (scene_of(&bytes, model), scene_of(&text, model));
+    match difference(&first, &second) {
+        None => Ok(()),
+        Some(part) => Err(format!("{part} differ")),
+    }
+}
+
+#[test]
+fn printed_files_give_the_same_scene() {
+    let mut failures = Vec::new();
+    for model in samples().iter().chain(&corpus()) {
+        if let Err(why) = check(model) {
+            failures.push(format!("{}: {why}", model.name));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// The comparison sees what it must see.
+#[test]
+fn differences_are_seen() {
+    let sample = |name: &str| {
+        let all = samples();
+        let found = all.iter().find(|m| m.name == name).cloned();
+        found.expect("a sample of this name")
+    };
+    let model = sample("textures/inline_image.iv");
+    let bytes = fs::read(&model.path).expect("a sample");
+    let original = scene_of(&bytes, &model);
+    let changed = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = scene_of(&bytes, &model);
+        change(&mut scene);
+        difference(&original, &scene)
+    };
+    assert_eq!(changed(&|_| ()), None);
+    let moved = |s: &mut Scene| s.meshes[0].positions[0][0] += 1e-6;
+    assert_eq!(changed(&moved), Some("meshes"));
+    let shiny = |s: &mut Scene| s.materials[0].shininess += 1e-12;
+    assert_eq!(changed(&shiny), Some("materials"));
+    let pixel = |s: &mut Scene| {
+        s.textures[0].source = TextureSource::File {
+            name: "other.png".into(),
+            beside: "".into(),
+        };
+    };
+    assert_eq!(changed(&pixel), Some("textures"));
+}
