@@ -1,7 +1,7 @@
 //! Open Inventor syntax: bytes to a syntax tree with diagnostics, and back to text.
 //!
 //! This crate knows tokens, braces, numbers and names. It knows no node class, no field type and
-//! no default; what a tree means is the business of `scenegraph`. [`parse`] is total: any bytes
+//! no default; what a tree means is the business of `scenegraph`. [`parse()`] is total: any bytes
 //! give a tree, and a [`Problem`] for each thing that was not as it should be.
 //!
 //! ```

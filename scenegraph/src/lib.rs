@@ -4,7 +4,7 @@
 //!
 //! 1. [`load`]: bytes to a [`Graph`]: classes, fields and defaults from the [`registry`], `DEF` and
 //!    `USE` as shared nodes, old versions upgraded, `File` nodes read through a [`Loader`].
-//! 2. [`resolve`]: one walk over the graph with the traversal state as a value.
+//! 2. [`resolve()`]: one walk over the graph with the traversal state as a value.
 //! 3. [`scene::Scene`]: what the walk leaves: no defaults, no state, no Inventor rule.
 //!
 //! Files are opened by the [`Loader`] only.

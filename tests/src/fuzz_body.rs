@@ -84,7 +84,7 @@ pub fn resolve_within(bytes: &[u8], limits: ResolveLimits) -> Resolved {
     let graph = load(bytes, "input.iv", Path::new("."), &loader);
     let options = |geometry| ResolveOptions {
         geometry,
-        draw_styles: true,
+        like_coin: false,
         limits,
     };
     let mut resolved = scenegraph::resolve(&graph, &options(Geometry::Build));

@@ -43,7 +43,7 @@ pub fn write(
 ///
 /// # Errors
 ///
-/// As [`write`], in words with the path.
+/// As [`write()`], in words with the path.
 pub fn write_json(path: &Path, document: &Value) -> Result<u64, String> {
     let text = json::text(document);
     write(path, |out| out.write_all(text.as_bytes()))

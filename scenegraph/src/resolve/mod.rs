@@ -61,9 +61,10 @@ impl Default for ResolveLimits {
 pub struct ResolveOptions {
     /// Make meshes, or only measure.
     pub geometry: Geometry,
-    /// Whether `DrawStyle` changes what is drawn: off, invisible shapes and wireframes come as
-    /// filled ones.
-    pub draw_styles: bool,
+    /// What Coin's SoCallbackAction makes of a file, where it differs from what is meant, to
+    /// compare with it: `DrawStyle` plays no part, polygons are fanned even if they are concave,
+    /// and what stands in nodes of unknown classes is not drawn.
+    pub like_coin: bool,
     /// Limits.
     pub limits: ResolveLimits,
 }
@@ -72,7 +73,7 @@ impl Default for ResolveOptions {
     fn default() -> Self {
         Self {
             geometry: Geometry::Build,
-            draw_styles: true,
+            like_coin: false,
             limits: ResolveLimits::default(),
         }
     }

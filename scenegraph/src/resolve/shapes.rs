@@ -20,10 +20,10 @@ impl Walk<'_> {
         if !ShapeMaker::knows(class) {
             return false;
         }
-        let style = if self.options.draw_styles {
-            self.state.draw_style.style
-        } else {
+        let style = if self.options.like_coin {
             Style::Filled
+        } else {
+            self.state.draw_style.style
         };
         // What cannot be placed is not made.
         if style == Style::Invisible || !self.can_place(self.graph.node(id)) {
@@ -39,6 +39,7 @@ impl Walk<'_> {
             lit: state.light_model == LightModel::Phong,
             style,
             shared: self.is_shared(id),
+            fans: self.options.like_coin,
         };
         let builder = &mut self.builder;
         let made = match self.options.geometry {

@@ -139,6 +139,7 @@ impl<'g> Walk<'g> {
         let node = graph.node(id);
         let class = match node.kind {
             Kind::Known(class) => class,
+            Kind::Unknown(_) if self.options.like_coin => return,
             Kind::Unknown(_) => return self.open(id, 0, node.children.len(), true),
         };
         let spec = class.spec();

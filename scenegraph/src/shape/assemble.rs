@@ -60,7 +60,7 @@ impl Assembler {
         let group_count = self.welder.weld(words, 3, &mut self.groups);
         let is_list = topology != Topology::Triangles || corners.is_triangle_list();
         if !is_list {
-            self.triangulate(&corners, attributes, &used, remarks);
+            self.triangulate(&corners, attributes, job, &used, remarks);
         }
         let clockwise = attributes.ordering == Ordering::Clockwise;
         // Normals are made for faces only; lines and points are lit if the file gives them some.
@@ -166,6 +166,7 @@ impl Assembler {
         &mut self,
         corners: &Corners,
         attributes: &Attributes<'_>,
+        job: &Job<'_>,
         used: &[u32],
         remarks: &mut Remarks,
     ) {
@@ -174,6 +175,11 @@ impl Assembler {
             let first = range.start as u32;
             if range.len() == 3 {
                 self.triangles.push([first, first + 1, first + 2]);
+                continue;
+            }
+            if job.fans {
+                let fan = (2..range.len() as u32).map(|i| [first, first + i - 1, first + i]);
+                self.triangles.extend(fan);
                 continue;
             }
             self.loop_points.clear();

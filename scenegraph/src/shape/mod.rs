@@ -80,6 +80,8 @@ pub struct Job<'a> {
     pub style: Style,
     /// Whether the shape can come again; only then is its mesh looked up and remembered.
     pub shared: bool,
+    /// Whether polygons are cut from their first corner, whatever their shape.
+    pub fans: bool,
 }
 
 impl ShapeMaker {

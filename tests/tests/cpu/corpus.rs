@@ -42,7 +42,7 @@ fn read(folder: &Path, entry: &Entry) -> Outcome {
     let beside = path.parent().unwrap_or(&source);
     let graph = load(&bytes, &entry.path, beside, &loader);
     let options = ResolveOptions {
-        draw_styles: false,
+        like_coin: true,
         ..ResolveOptions::default()
     };
     let resolved = resolve(&graph, &options);

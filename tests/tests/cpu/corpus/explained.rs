@@ -14,52 +14,6 @@ const UNLIT: &str = "unlit triangles carry no normals";
 
 /// Path, quantity, reason.
 const EXPLAINED: &[(&str, &str, &str)] = &[
-    (
-        "aumuell/apps/examples/Toolmaker/02.Nodes/newNodes.iv",
-        "area",
-        UNKNOWN_GROUP,
-    ),
-    (
-        "aumuell/apps/examples/Toolmaker/02.Nodes/newNodes.iv",
-        "volume",
-        UNKNOWN_GROUP,
-    ),
-    (
-        "aumuell/apps/examples/Toolmaker/02.Nodes/newNodes.iv",
-        "normals",
-        UNKNOWN_GROUP,
-    ),
-    (
-        "aumuell/apps/examples/Toolmaker/02.Nodes/newNodes.iv",
-        "bounds",
-        UNKNOWN_GROUP,
-    ),
-    (
-        "ivexamples/Toolmaker/02.Nodes/newNodes.iv",
-        "area",
-        UNKNOWN_GROUP,
-    ),
-    (
-        "ivexamples/Toolmaker/02.Nodes/newNodes.iv",
-        "volume",
-        UNKNOWN_GROUP,
-    ),
-    (
-        "ivexamples/Toolmaker/02.Nodes/newNodes.iv",
-        "normals",
-        UNKNOWN_GROUP,
-    ),
-    (
-        "ivexamples/Toolmaker/02.Nodes/newNodes.iv",
-        "bounds",
-        UNKNOWN_GROUP,
-    ),
-    ("aumuell/apps/nodes/Decal/decal.iv", "area", UNKNOWN_GROUP),
-    (
-        "aumuell/apps/nodes/Decal/decal.iv",
-        "normals",
-        UNKNOWN_GROUP,
-    ),
     ("aumuell/data/models/bird.iv", "volume", FILE_NORMALS),
     ("aumuell/data/models/bird.iv", "normals", UNIT_NORMALS),
     ("ivexamples/data/bird.iv", "volume", FILE_NORMALS),
@@ -79,13 +33,6 @@ const EXPLAINED: &[(&str, &str, &str)] = &[
         "aumuell/data/models/simple/triangleStripSet.iv",
         "normals",
         STRIP_NORMALS,
-    ),
-    ("graspit/models/objects/graspStage/p51.iv", "area", CONCAVE),
-    ("graspit/models/objects/p51.iv", "area", CONCAVE),
-    (
-        "graspit/models/objects/plated/p51_plated.iv",
-        "area",
-        CONCAVE,
     ),
 ];
 
