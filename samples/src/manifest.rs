@@ -33,6 +33,20 @@ const fn sample(
     }
 }
 
+/// A row with the codes of its diagnostics.
+const fn remarked(
+    name: &'static str,
+    path: &'static str,
+    topic: &'static str,
+    shows: &'static str,
+    codes: &'static [&'static str],
+) -> Sample {
+    Sample {
+        codes,
+        ..sample(name, path, topic, shows)
+    }
+}
+
 /// Every sample, ordered by topic.
 #[rustfmt::skip]
 pub const ALL: &[Sample] = &[
@@ -63,22 +77,22 @@ pub const ALL: &[Sample] = &[
     sample("State scope", "structure/state_scope.iv", "structure", "what Separator, Group and TransformSeparator keep to themselves"),
     sample("Bolt part", "structure/bolt_part.iv", "structure", "a part that another file includes"),
     sample("Include", "structure/include_part.iv", "structure", "File nodes; names of the included file stay apart"),
-    sample("Extension nodes", "structure/extension_nodes.iv", "structure", "unknown classes with fields, isA and alternateRep"),
+    remarked("Extension nodes", "structure/extension_nodes.iv", "structure", "unknown classes with fields, isA and alternateRep", &["unknown-class"]),
     sample("Version 1.0", "structure/version_1_0.iv", "structure", "an Inventor V1.0 file with old shape hints"),
-    sample("VRML 1.0", "structure/vrml_1_0.iv", "structure", "a VRML 1.0 world: anchor, emissive only, text"),
+    remarked("VRML 1.0", "structure/vrml_1_0.iv", "structure", "a VRML 1.0 world: anchor, emissive only, text", &["not-supported"]),
     sample("Units", "transforms/units.iv", "transforms", "one length in metres, centimetres, millimetres and feet"),
     sample("Mirrored and sheared", "transforms/mirrored_sheared.iv", "transforms", "negative scale, scaleOrientation, a shearing matrix"),
     sample("LV95 coordinates", "numerics/lv95_full_coordinates.iv", "numerics", "millimetres given in coordinates of thousands of kilometres"),
     sample("LV95 offset", "numerics/lv95_offset.iv", "numerics", "small coordinates under large translations"),
-    sample("Degenerate faces", "numerics/degenerate_faces.iv", "numerics", "doubled corners, no area, a sliver, a face twice"),
-    sample("Unknown field", "broken/unknown_field.iv", "broken", "a field the node does not have"),
-    sample("Missing brace", "broken/missing_brace.iv", "broken", "the file ends before its braces are closed"),
-    sample("Windows NaN", "broken/windows_nan.iv", "broken", "1.#QNAN, -1.#IND and 1.#INF as numbers"),
-    sample("Comma errors", "broken/comma_errors.iv", "broken", "commas inside tuples, doubled and leading; a tuple cut short"),
-    sample("Bad index", "broken/bad_index.iv", "broken", "coordinate and material indices out of range"),
-    sample("Unknown node", "broken/unknown_node.iv", "broken", "an unknown class without its list of fields"),
-    sample("Glued label", "broken/glued_label.iv", "broken", "an unquoted word that swallows its closing brace"),
-    sample("Wrong words", "broken/wrong_words.iv", "broken", "nearly right enumeration, truth value, bit mask and name"),
+    remarked("Degenerate faces", "numerics/degenerate_faces.iv", "numerics", "doubled corners, no area, a sliver, a face twice", &["small-face"]),
+    remarked("Unknown field", "broken/unknown_field.iv", "broken", "a field the node does not have", &["unknown-field"]),
+    remarked("Missing brace", "broken/missing_brace.iv", "broken", "the file ends before its braces are closed", &["missing-brace"]),
+    remarked("Windows NaN", "broken/windows_nan.iv", "broken", "1.#QNAN, -1.#IND and 1.#INF as numbers", &["not-a-number"]),
+    remarked("Comma errors", "broken/comma_errors.iv", "broken", "commas inside tuples, doubled and leading; a tuple cut short", &["extra-numbers", "stray-comma"]),
+    remarked("Bad index", "broken/bad_index.iv", "broken", "coordinate and material indices out of range", &["bad-index", "small-face"]),
+    remarked("Unknown node", "broken/unknown_node.iv", "broken", "an unknown class without its list of fields", &["unknown-class"]),
+    remarked("Glued label", "broken/glued_label.iv", "broken", "an unquoted word that swallows its closing brace", &["glued-brace"]),
+    remarked("Wrong words", "broken/wrong_words.iv", "broken", "nearly right enumeration, truth value, bit mask and name", &["word-guessed", "bool-case", "unknown-name"]),
 ];
 
 /// The folder of the sample files.

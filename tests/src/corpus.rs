@@ -22,6 +22,10 @@ pub struct Counts {
     pub length: f64,
     /// Sum of area times dot of geometric and mean vertex normal.
     pub normal_dot: f64,
+    /// Triangles with texture coordinates.
+    pub textured: usize,
+    /// Sums of the texture coordinates, before texture transforms.
+    pub texcoord_sum: [f64; 2],
     /// Lower corner, then upper corner.
     pub bounds: Option<[f64; 6]>,
 }
@@ -52,6 +56,14 @@ pub struct Entry {
     pub text: Counts,
     /// NURBS.
     pub nurbs: Counts,
+    /// Different diffuse colours at corners of triangles.
+    pub colors: usize,
+    /// Different transparencies there.
+    pub transparencies: usize,
+    /// Lights that are on.
+    pub lights: usize,
+    /// Cameras.
+    pub cameras: usize,
 }
 
 /// The corpus's folder, or `None` with a loud line when it is not there.
@@ -81,6 +93,7 @@ pub fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
 fn entry_of(value: &Value) -> Entry {
     let coin = &value["coin"];
     let text = |v: &Value| v.as_str().unwrap_or_default().to_owned();
+    let count = |key: &str| coin[key].as_u64().unwrap_or(0) as usize;
     let errors = coin["errors"].as_array();
     Entry {
         path: text(&value["path"]),
@@ -91,6 +104,10 @@ fn entry_of(value: &Value) -> Entry {
         analytic: counts_of(&coin["analytic"]),
         text: counts_of(&coin["text"]),
         nurbs: counts_of(&coin["nurbs"]),
+        colors: count("diffuse_colors"),
+        transparencies: count("transparencies"),
+        lights: count("lights_active"),
+        cameras: count("cameras_active"),
     }
 }
 
@@ -112,6 +129,8 @@ fn counts_of(value: &Value) -> Counts {
         volume: number("vol"),
         length: number("len"),
         normal_dot: number("nrmdot"),
+        textured: count("uvtris"),
+        texcoord_sum: [0, 1].map(|i| value["uvsum"][i].as_f64().unwrap_or(0.0)),
         bounds,
     }
 }

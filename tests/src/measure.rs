@@ -2,6 +2,8 @@
 //!
 //! Shares no code with what it judges: it reads the scene's arrays and multiplies itself.
 
+use std::collections::BTreeSet;
+
 use glam::{DAffine3, DMat3, DVec3};
 use scenegraph::scene::{Instance, Mesh, Scene, Topology};
 
@@ -97,6 +99,14 @@ pub struct Totals {
     pub length: f64,
     /// Sum over triangles of area times the dot product of geometric and mean vertex normal.
     pub normal_dot: f64,
+    /// Triangles with texture coordinates.
+    pub textured: usize,
+    /// Sums of the texture coordinates of their corners.
+    pub texcoord_sum: [f64; 2],
+    /// Different diffuse colours, as f32, at corners of triangles.
+    pub colors: usize,
+    /// Different transparencies there, to a thousandth.
+    pub transparencies: usize,
     /// Lower and upper corner; `None` when there is nothing.
     pub bounds: Option<[DVec3; 2]>,
 }
@@ -111,8 +121,13 @@ pub fn totals(scene: &Scene) -> Totals {
         volume: 0.0,
         length: 0.0,
         normal_dot: 0.0,
+        textured: 0,
+        texcoord_sum: [0.0; 2],
+        colors: 0,
+        transparencies: 0,
         bounds: None,
     };
+    let (mut colors, mut transparencies) = (BTreeSet::new(), BTreeSet::new());
     for primitive in primitives(scene) {
         for corner in &primitive.corners {
             let p = corner.p_in_world;
@@ -124,6 +139,13 @@ pub fn totals(scene: &Scene) -> Totals {
                 let (p, q, r) = (a.p_in_world, b.p_in_world, c.p_in_world);
                 let twice_area = (q - p).cross(r - p);
                 t.triangles += 1;
+                t.textured += usize::from(a.texcoord.is_some());
+                for corner in [a, b, c] {
+                    let [u, v] = corner.texcoord.unwrap_or_default();
+                    t.texcoord_sum = [t.texcoord_sum[0] + u, t.texcoord_sum[1] + v];
+                    colors.insert(corner.color_srgb.map(|x| (x as f32).to_bits()));
+                    transparencies.insert((1000.0 * corner.transparency).round() as i64);
+                }
                 t.area += 0.5 * twice_area.length();
                 t.volume += p.dot(q.cross(r)) / 6.0;
             }
@@ -134,6 +156,8 @@ pub fn totals(scene: &Scene) -> Totals {
             _ => t.points += 1,
         }
     }
+    t.colors = colors.len();
+    t.transparencies = transparencies.len();
     t.normal_dot = normal_dot(scene);
     t
 }

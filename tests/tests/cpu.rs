@@ -11,5 +11,6 @@ mod cpu {
     mod robustness;
     mod roundtrip;
     mod rules;
+    mod samples;
     mod validator;
 }

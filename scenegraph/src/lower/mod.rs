@@ -101,6 +101,7 @@ impl Builder<'_> {
                 names: Names::of(&parsed.tree),
                 base: self.nodes.len() as u32,
                 lines: LineCounter::new(index),
+                owner: iv_parser::NodeId(0),
                 problems: &mut problems,
                 builder: self,
             };
@@ -178,6 +179,8 @@ struct File<'b, 't, 'a, 'l> {
     /// Graph node of the tree's node 0.
     base: u32,
     lines: LineCounter,
+    /// The node being added.
+    owner: iv_parser::NodeId,
     problems: &'b mut Vec<Problem>,
     builder: &'b mut Builder<'l>,
 }

@@ -35,6 +35,7 @@ impl<'a> File<'_, '_, 'a, '_> {
     fn node(&mut self, id: TreeId, old: &mut Vec<OldValue>) -> Node {
         let tree = self.tree;
         let source = tree.node(id);
+        self.owner = id;
         let start = source.span.start as usize;
         let pos = self.lines.position(tree.source, start);
         let name = source.def.and_then(display_name);
@@ -211,10 +212,27 @@ impl<'a> File<'_, '_, 'a, '_> {
             .collect()
     }
 
+    /// Whether a node describes a field of its own: `fields [ SFString maker ]`.
+    fn declares(&self, id: TreeId, name: &[u8]) -> bool {
+        let tree = self.tree;
+        tree.items(id).iter().any(|item| {
+            let Item::Field(field) = item else {
+                return false;
+            };
+            let field = tree.field(*field);
+            let Value::Atoms { atoms, .. } = &field.value else {
+                return false;
+            };
+            let is_name = |atom: &Atom<'_>| matches!(atom, Atom::Word(word, _) if *word == name);
+            field.name == b"fields" && tree.atoms(*atoms).iter().any(is_name)
+        })
+    }
+
     fn unknown_field(&mut self, spec: &ClassSpec, id: FieldId, node: &mut Node) {
         let tree = self.tree;
         let field = tree.field(id);
-        if DESCRIPTION.contains(&field.name) || spec.has_parts() {
+        let expected = DESCRIPTION.contains(&field.name) || spec.has_parts();
+        if expected || self.declares(self.owner, field.name) {
             return;
         }
         let handles: Vec<NodeId> = self.handles(&field.value).into_iter().flatten().collect();

@@ -1,7 +1,7 @@
 //! The corpus of real files against Coin 4.0: what is drawn must be the same, and every difference
 //! must have a reason that stands in [`explained`].
 //!
-//! Coin's `SoCallbackAction` ignores `DrawStyle`, so it is ignored here too.
+//! Files are resolved on Coin's terms: see [`ResolveOptions::like_coin`].
 
 mod explained;
 mod report;
@@ -18,6 +18,8 @@ use tests::measure::{Totals, totals};
 struct Outcome {
     entry: Entry,
     totals: Totals,
+    lights: usize,
+    cameras: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -52,6 +54,8 @@ fn read(folder: &Path, entry: &Entry) -> Outcome {
     Outcome {
         entry: entry.clone(),
         totals: totals(&resolved.scene),
+        lights: resolved.scene.lights.len(),
+        cameras: resolved.scene.cameras.len(),
         diagnostics,
     }
 }
@@ -90,20 +94,35 @@ impl Outcome {
     fn exact_differences(&self) -> Vec<Difference> {
         let (ours, coin) = (&self.totals, &self.entry.explicit);
         let mut differences = Vec::new();
-        let mut number = |what, ours: f64, coin: f64, tolerance: f64| {
-            if (ours - coin).abs() > tolerance {
-                differences.push(Difference {
-                    what,
-                    ours: format!("{ours:.6e}"),
-                    coin: format!("{coin:.6e}"),
-                });
-            }
+        let mut number = |what, ours, coin, tolerance| {
+            differences.extend(unequal(what, ours, coin, tolerance));
         };
+        let counts = [
+            ("lines", ours.lines, coin.lines),
+            ("points", ours.points, coin.points),
+            ("colours", ours.colors, self.entry.colors),
+            (
+                "transparencies",
+                ours.transparencies,
+                self.entry.transparencies,
+            ),
+            ("textured triangles", ours.textured, coin.textured),
+            ("lights", self.lights, self.entry.lights),
+            ("cameras", self.cameras, self.entry.cameras),
+        ];
+        for (what, ours, coin) in counts {
+            number(what, ours as f64, coin as f64, 0.0);
+        }
+        // Degenerate triangles, which are left out here, count for Coin's sum.
+        if ours.triangles == coin.triangles {
+            for (i, what) in ["texture s", "texture t"].into_iter().enumerate() {
+                let (ours, coin) = (ours.texcoord_sum[i], coin.texcoord_sum[i]);
+                number(what, ours, coin, 1e-5 * coin.abs());
+            }
+        }
         let far = coin.bounds.map_or(0.0, |b| largest(&b));
         number("area", ours.area, coin.area, 1e-5 * coin.area);
         number("length", ours.length, coin.length, 1e-5 * coin.length);
-        number("lines", ours.lines as f64, coin.lines as f64, 0.0);
-        number("points", ours.points as f64, coin.points as f64, 0.0);
         // The volume of a triangle and the origin is at most a third of area times distance.
         let volume_tolerance = 1e-5 * coin.area * far / 3.0;
         number("volume", ours.volume, coin.volume, volume_tolerance);
@@ -164,6 +183,21 @@ impl Outcome {
             coin: text(coin),
         })
     }
+}
+
+fn unequal(what: &'static str, ours: f64, coin: f64, tolerance: f64) -> Option<Difference> {
+    let number = |x: f64| {
+        if x.fract() == 0.0 {
+            format!("{x}")
+        } else {
+            format!("{x:.6e}")
+        }
+    };
+    ((ours - coin).abs() > tolerance).then(|| Difference {
+        what,
+        ours: number(ours),
+        coin: number(coin),
+    })
 }
 
 fn largest(numbers: &[f64]) -> f64 {

@@ -25,14 +25,16 @@ pub fn render(outcomes: &[Outcome], others: usize) -> String {
          | … taken by Coin, face, line and point sets only: all numbers compared | {exact} |\n\
          | … … all numbers equal | {equal} |\n\
          | … taken by Coin, with analytic shapes or text: bounds compared | {} |\n\n\
+         Equal means: area, length and bounds to 1e-5, the same number of lines, points, textured\n\
+         triangles, diffuse colours, transparencies, lights and cameras, the sums of texture coordinates\n\
+         to 1e-5, signed volume to 1e-5 of area times distance, and the sum of area times the dot product\n\
+         of face and vertex normal to 1e-3. Numbers of triangles are not compared: degenerate ones are\n\
+         left out.\n\n\
          Files are resolved with `ResolveOptions::like_coin`: DrawStyle plays no part, polygons are\n\
          fanned even if they are concave, and what stands in nodes of unknown classes is hidden.\n\
          Without it six of these files differ in area: `p51.iv` and its two copies, whose concave\n\
          polygons Coin fills with overlap, and `newNodes.iv` (twice) and `decal.iv`, which hold\n\
-         extension nodes with children.\n\n\
-         Equal means: area, length and bounds to 1e-5, the same number of lines and points, signed\n\
-         volume to 1e-5 of area times distance, and the sum of area times the dot product of face and\n\
-         vertex normal to 1e-3. Numbers of triangles are not compared: degenerate ones are left out.\n\n",
+         extension nodes with children.\n\n",
         outcomes.len() + others,
         outcomes.len(),
         refused.len(),

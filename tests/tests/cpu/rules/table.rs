@@ -141,6 +141,16 @@ pub const RULES: &[Rule] = &[
         ..RULE
     },
     Rule {
+        number: 10,
+        name: "where no ordering is told, triangles are turned to the normals of the file",
+        text: "Separator { Normal { vector 0 0 -1 } NormalBinding { value OVERALL }
+            Coordinate3 { point [ 0 0 0, 2 0 0, 0 3 0 ] }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } }",
+        draws: &[&[[0.0, 0.0, 0.0], [0.0, 3.0, 0.0], [2.0, 0.0, 0.0]]],
+        normal: Some([0.0, 0.0, -1.0]),
+        ..RULE
+    },
+    Rule {
         number: 11,
         name: "later transforms are inner ones",
         text: "Separator { Rotation { rotation 1 0 0 1.57079633 }
