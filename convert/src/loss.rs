@@ -43,6 +43,13 @@ pub enum LossKind {
 }
 
 impl LossKind {
+    /// Whether the loss is of a kind that nearly every model has and nobody can act on. Reports
+    /// hold it; messages and `--strict` do not.
+    #[must_use]
+    pub fn is_minor(self) -> bool {
+        matches!(self, Self::AmbientLight | Self::OneSidedLighting)
+    }
+
     /// All kinds, in the order of the document.
     pub const ALL: [Self; 12] = [
         Self::Fog,

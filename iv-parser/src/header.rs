@@ -3,7 +3,7 @@
 use nom::IResult;
 use nom::Parser;
 use nom::branch::alt;
-use nom::bytes::complete::{tag, tag_no_case, take_while1};
+use nom::bytes::complete::{tag, tag_no_case};
 use nom::character::complete::{char, one_of, space1, u8 as small_number};
 use nom::combinator::value;
 use nom::sequence::separated_pair;
@@ -148,39 +148,48 @@ pub fn read_header(bytes: &[u8], problems: &mut Vec<Problem>) -> (Header, usize)
         .iter()
         .position(|&b| b == b'\n' || b == b'\r')
         .unwrap_or(bytes.len());
-    note(
-        "no-header",
-        &format!("the first line is not an Inventor header{}", foreign(bytes)),
-        "`#Inventor V2.1 ascii` was assumed",
-        Span::new(0, line_end.min(80)),
-    );
+    let span = Span::new(0, line_end.min(80));
+    match foreign(bytes) {
+        Some((what, hint)) => problems.push(Problem {
+            severity: Severity::Error,
+            code: "unsupported-format",
+            message: format!("this is {what}, not an Inventor file"),
+            hint: hint.to_owned(),
+            span: Span::default(),
+        }),
+        None => note(
+            "no-header",
+            "the first line is not an Inventor header",
+            "`#Inventor V2.1 ascii` was assumed",
+            span,
+        ),
+    }
     (Header::ASSUMED, at)
 }
 
-/// What a file without our header looks like, for the message.
-fn foreign(bytes: &[u8]) -> &'static str {
-    const SIGNS: &[(&[u8], &str)] = &[
-        (b"\x1f\x8b", " (this looks like a gzip archive)"),
-        (b"BZh", " (this looks like a bzip2 archive)"),
-        (b"PK\x03\x04", " (this looks like a zip archive)"),
-        (b"#X3D", " (this looks like X3D)"),
-        (b"<?xml", " (this looks like XML)"),
-        (b"glTF", " (this looks like glTF)"),
-        (b"solid ", " (this looks like STL)"),
-        (b"ply", " (this looks like PLY)"),
-        (b"\x89PNG", " (this looks like a PNG image)"),
+/// What a file without our header is, and what to do with it, if its first bytes tell.
+fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    const UNPACK: &str = "unpack it first";
+    const CONVERT: &str = "only Inventor and VRML 1.0 files are read";
+    const SIGNS: &[(&[u8], &str, &str)] = &[
+        (b"\x1f\x8b", "a gzip archive", UNPACK),
+        (b"BZh", "a bzip2 archive", UNPACK),
+        (b"PK\x03\x04", "a zip archive", UNPACK),
+        (b"\xff\xfe", "UTF-16 text", "save it as UTF-8"),
+        (b"\xfe\xff", "UTF-16 text", "save it as UTF-8"),
+        (b"#X3D", "X3D", CONVERT),
+        (b"<?xml", "XML", CONVERT),
+        (b"glTF", "glTF", CONVERT),
+        (b"solid ", "STL", CONVERT),
+        (b"ply\n", "PLY", CONVERT),
+        (b"ply\r", "PLY", CONVERT),
+        (b"\x89PNG", "a PNG image", CONVERT),
+        (b"\xff\xd8\xff", "a JPEG image", CONVERT),
+        (b"GIF8", "a GIF image", CONVERT),
+        (b"%PDF", "a PDF document", CONVERT),
+        (b"\x7fELF", "a program", CONVERT),
+        (b"mtllib ", "Wavefront OBJ", CONVERT),
     ];
-    let first_word: IResult<&[u8], &[u8]> = take_while1(|b: u8| b != b' ' && b != b'\n')(bytes);
-    let is_obj = matches!(first_word, Ok((_, b"v" | b"mtllib" | b"vn")));
-    SIGNS
-        .iter()
-        .find(|(sign, _)| bytes.starts_with(sign))
-        .map_or(
-            if is_obj {
-                " (this looks like Wavefront OBJ)"
-            } else {
-                ""
-            },
-            |(_, text)| text,
-        )
+    let found = SIGNS.iter().find(|(sign, ..)| bytes.starts_with(sign));
+    found.map(|&(_, what, hint)| (what, hint))
 }

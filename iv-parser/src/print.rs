@@ -72,7 +72,7 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
                 Step::CloseList => self.out.write_all(b" ]")?,
                 Step::Tail(field) => self.tail(field)?,
                 Step::Output(name) => {
-                    self.out.write_all(b" . ")?;
+                    self.out.write_all(b".")?;
                     self.out.write_all(name)?;
                 }
                 Step::EndLine => self.out.write_all(b"\n")?,

@@ -17,9 +17,9 @@ use crate::same_tree;
 
 /// Small enough that one input takes milliseconds.
 const LIMITS: ResolveLimits = ResolveLimits {
-    steps: 200_000,
+    steps: 100_000,
     depth: 1000,
-    items: 20_000,
+    items: 2_000,
     geometry_bytes: 64 << 20,
 };
 

@@ -1,10 +1,12 @@
-//! What the tests over all crates share: measures of a scene, the corpus, inputs made to break,
-//! and what must hold for any input.
+//! What tests and benchmarks over all crates share: measures of a scene, the corpus, inputs made to
+//! break, large ones, and what must hold for any input.
 
 pub mod corpus;
+pub mod floats;
 pub mod fuzz_body;
 pub mod glb;
 pub mod hostile;
+pub mod large;
 pub mod measure;
 pub mod mutate;
 pub mod same_tree;

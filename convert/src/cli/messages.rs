@@ -13,6 +13,24 @@ use super::{DONE, FAILED, INCOMPLETE};
 /// Diagnostics of one input that are printed in full.
 const MAX_SHOWN: usize = 20;
 
+/// Warnings about something that was understood all the same, or was not there: they lose nothing.
+const LOSSLESS_REPAIRS: [&str; 14] = [
+    "bool-case",
+    "byte-order-mark",
+    "empty",
+    "glued-brace",
+    "late-header",
+    "mask-number",
+    "missing-bracket",
+    "missing-paren",
+    "no-brackets",
+    "no-geometry",
+    "no-header",
+    "stray-comma",
+    "unknown-version",
+    "word-guessed",
+];
+
 /// How much is shown.
 #[derive(Clone, Debug)]
 pub struct Style {
@@ -82,7 +100,8 @@ pub fn lines(
         lines.push(more);
     }
     if !style.is_quiet {
-        lines.extend(losses.iter().map(loss_line));
+        let major = losses.iter().filter(|l| !l.loss.kind.is_minor());
+        lines.extend(major.map(loss_line));
     }
     if let Some(why) = failure {
         lines.push(error_line(&input.display().to_string(), why));
@@ -184,9 +203,13 @@ impl Totals {
         let errors = outcome.diagnostics.iter().filter(is_error).count();
         self.errors += errors;
         self.warnings += outcome.diagnostics.len() - errors + outcome.warnings.len();
-        self.losses += outcome.losses.len();
-        let left_out = outcome.warnings.iter().filter(|w| w.code == "image");
-        self.left_out += left_out.count();
+        let losses = outcome.losses.iter();
+        self.losses += losses.filter(|l| !l.loss.kind.is_minor()).count();
+        let remarks = outcome.diagnostics.iter().chain(&outcome.warnings);
+        let loses = |d: &&Diagnostic| {
+            d.severity >= Severity::Warning && !LOSSLESS_REPAIRS.contains(&d.code)
+        };
+        self.left_out += remarks.filter(loses).count();
     }
 
     /// One line about all.

@@ -39,7 +39,15 @@ pub fn file_loader(path: &Path, search: &[PathBuf]) -> FileLoader {
 /// The graph of a model with all it includes.
 pub fn graph(bytes: &[u8], path: &Path, files: &FileLoader) -> Graph {
     let name = path.display().to_string();
-    scenegraph::load(bytes, &name, folder_of(path), files)
+    let folder = folder_of(path);
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    // Canonical, so that a file that includes itself is known again.
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    scenegraph::load(bytes, &name, &folder, files)
 }
 
 /// Whether the input itself, not a file it includes, is of a format that is not read.

@@ -63,7 +63,11 @@ pub fn parse_with<'a>(bytes: &'a [u8], limits: &Limits) -> Parse<'a> {
             Span::new(0, 0),
         );
     }
-    parser.run();
+    // The bytes of another format are no text to look for nodes in.
+    let is_foreign = |p: &Problem| p.code == "unsupported-format";
+    if !parser.problems.iter().any(is_foreign) {
+        parser.run();
+    }
     Parse {
         tree: parser.tree,
         problems: parser.problems,

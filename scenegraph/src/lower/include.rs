@@ -135,7 +135,7 @@ impl Builder<'_> {
                     severity: Severity::Error,
                     code: "include",
                     message: format!("`{name}` is not included: {why}"),
-                    hint: "it is looked for beside this file, then beside the first file, then in the --search folders".to_owned(),
+                    hint: if name.contains("://") { String::new() } else { "it is looked for beside this file, then beside the first file, then in the --search folders".to_owned() },
                     file: Arc::clone(&self.files[file as usize].name),
                     pos,
                     snippet: None,
@@ -144,11 +144,24 @@ impl Builder<'_> {
         }
     }
 
+    /// A file's name for display: as the first file's is written, where it lies below its folder.
+    fn shown(&self, path: &Path) -> Arc<str> {
+        let first = &self.files[0];
+        let folder = Path::new(&*first.name).parent().unwrap_or(Path::new(""));
+        match path.strip_prefix(&first.folder) {
+            Ok(below) => folder.join(below).to_string_lossy().into(),
+            Err(_) => path.to_string_lossy().into(),
+        }
+    }
+
     fn included(&mut self, loaded: Loaded, from: u32) -> Result<NodeId, String> {
         let known = self.includes.known.get(&loaded.id).copied();
         if let Some((file, root)) = known {
             if self.includes.reaches(file, from) {
-                return Err("it includes this file, which would never end".to_owned());
+                return Err(format!(
+                    "`{}`, which was found for it, includes this file, and that would never end",
+                    self.files[file as usize].name
+                ));
             }
             self.includes.connect(from, file);
             return Ok(root);
@@ -158,10 +171,7 @@ impl Builder<'_> {
         }
         let file = self.files.len() as u32;
         self.includes.connect(from, file);
-        let name: Arc<str> = loaded
-            .id
-            .file_name()
-            .map_or_else(|| "".into(), |n| n.to_string_lossy().into());
+        let name = self.shown(&loaded.id);
         let folder = loaded.id.parent().unwrap_or(Path::new("")).to_owned();
         let root = self.file(&loaded.bytes, name, &folder);
         self.includes.known.insert(loaded.id, (file, root));

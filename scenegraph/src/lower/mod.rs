@@ -93,7 +93,12 @@ impl Builder<'_> {
         });
         let mut problems = parsed.problems;
         let mut dropped = parsed.problems_dropped;
+        let is_foreign = problems.iter().any(|p| p.code == "unsupported-format");
+        let without_header = problems.iter().any(|p| p.code == "no-header");
         let readable = header.dialect != Dialect::Vrml2 && header.encoding == Encoding::Ascii;
+        // Without a header and without a single known class it is some other text.
+        let nothing_known = without_header && !has_known_class(&parsed.tree);
+        let readable = readable && !is_foreign && !nothing_known;
         let root = if readable {
             let mut file = File {
                 index,
@@ -108,9 +113,11 @@ impl Builder<'_> {
             file.nodes();
             file.root()
         } else {
-            problems.clear();
             dropped = 0;
-            problems.push(unreadable(header.dialect));
+            if !is_foreign {
+                problems.clear();
+                problems.push(unreadable(header.dialect, nothing_known));
+            }
             self.add(Node {
                 kind: Kind::Known(Class::Separator),
                 name: None,
@@ -155,18 +162,33 @@ impl Builder<'_> {
     }
 }
 
-fn unreadable(dialect: Dialect) -> Problem {
-    let what = if dialect == Dialect::Vrml2 {
-        "VRML 2.0 files"
+fn has_known_class(tree: &Tree<'_>) -> bool {
+    let mut nodes = (0..tree.node_count() as u32).map(|i| tree.node(iv_parser::NodeId(i)));
+    nodes.any(|node| Class::from_name(node.class).is_some())
+}
+
+fn unreadable(dialect: Dialect, nothing_known: bool) -> Problem {
+    let (message, hint) = if nothing_known {
+        (
+            "this is not an Inventor file",
+            "it has neither a header nor a node of a known class",
+        )
+    } else if dialect == Dialect::Vrml2 {
+        (
+            "VRML 2.0 files are not read by this version",
+            "write the model as Inventor or VRML 1.0",
+        )
     } else {
-        "binary Inventor files"
+        (
+            "binary Inventor files are not read by this version",
+            "write the model as ASCII, for example with SGI's `ivcat`",
+        )
     };
     Problem {
         severity: Severity::Error,
         code: "unsupported-format",
-        message: format!("{what} are not read by this version"),
-        hint: "write the model as `#Inventor V2.1 ascii`, for example with SGI's `ivcat`"
-            .to_owned(),
+        message: message.to_owned(),
+        hint: hint.to_owned(),
         span: Span::default(),
     }
 }

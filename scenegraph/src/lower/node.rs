@@ -275,6 +275,8 @@ impl<'a> File<'_, '_, 'a, '_> {
             }
         }
         let class = node.class_name().to_owned();
+        let guess = Class::closest(&class);
+        let guess = guess.map_or(String::new(), |c| format!("; did you mean {}?", c.name()));
         let (severity, what) = match (alternate, node.children.is_empty()) {
             (Some(alternate), _) => {
                 node.children = vec![alternate];
@@ -282,14 +284,9 @@ impl<'a> File<'_, '_, 'a, '_> {
             }
             (None, false) => (
                 Severity::Warning,
-                "the nodes in it are used as in a Group".to_owned(),
+                format!("the nodes in it are used as in a Group{guess}"),
             ),
-            (None, true) => {
-                let guess = Class::closest(&class);
-                let guess =
-                    guess.map_or(String::new(), |c| format!("; did you mean {}?", c.name()));
-                (Severity::Warning, format!("it was left out{guess}"))
-            }
+            (None, true) => (Severity::Warning, format!("it was left out{guess}")),
         };
         let span = head(tree.node(id).span, tree.node(id).class.len());
         self.problem(

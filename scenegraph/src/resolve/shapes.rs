@@ -25,8 +25,13 @@ impl Walk<'_> {
         } else {
             self.state.draw_style.style
         };
+        if style == Style::Invisible {
+            let node = self.graph.node(id);
+            self.left_out("shapes of the DrawStyle INVISIBLE are left out", node);
+            return true;
+        }
         // What cannot be placed is not made.
-        if style == Style::Invisible || !self.can_place(self.graph.node(id)) {
+        if !self.can_place(self.graph.node(id)) {
             return true;
         }
         let graph = self.graph;

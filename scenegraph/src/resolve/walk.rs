@@ -143,6 +143,13 @@ impl<'g> Walk<'g> {
             Kind::Unknown(_) => return self.open(id, 0, node.children.len(), true),
         };
         let spec = class.spec();
+        if matches!(
+            class,
+            Class::Rotor | Class::Pendulum | Class::Shuttle | Class::Blinker
+        ) {
+            let text = format!("{} is shown at the start of its motion", spec.name);
+            self.left_out(&text, node);
+        }
         let class = class.acts_as();
         let done = match class.spec().family {
             Family::Transform => transforms::apply(class, node, &mut self.state, &mut self.remarks),
@@ -205,10 +212,20 @@ impl<'g> Walk<'g> {
             }
             Class::Switch | Class::Blinker => {
                 let (first, end) = self.chosen(class, node);
+                if end - first < count {
+                    let text = "a Switch hides some of its children, which are left out";
+                    self.left_out(text, node);
+                }
                 self.open(id, first, end, false);
             }
             // Children of a level-of-detail group go from fine to coarse.
-            Class::LOD | Class::LevelOfDetail => self.open(id, 0, count.min(1), false),
+            Class::LOD | Class::LevelOfDetail => {
+                if count > 1 {
+                    let text = "of levels of detail only the finest is used";
+                    self.left_out(text, node);
+                }
+                self.open(id, 0, count.min(1), false);
+            }
             Class::Array | Class::MultipleCopy => {
                 let total = if count == 0 { 0 } else { copies(class, node) };
                 let keep = Keep::All(Box::new(self.state.clone()));
@@ -217,6 +234,12 @@ impl<'g> Walk<'g> {
             Class::PathSwitch => not_supported(&mut self.remarks, class.name(), node.pos),
             _ => self.open(id, 0, count, false),
         }
+    }
+
+    /// Says that something the source hides, or changes over time, is not in the scene.
+    pub(super) fn left_out(&mut self, text: &str, node: &Node) {
+        self.remarks
+            .add(Severity::Note, "hidden", text, "", node.pos);
     }
 
     /// The range of children that a `Switch` shows.

@@ -6,7 +6,7 @@ use std::path::Path;
 use iv_parser::{Encoding, SourcePos, parse};
 use scenegraph::scene::{Placement, Scene, TextureSource};
 use scenegraph::{ResolveOptions, load, resolve};
-use tests::fuzz_body::print;
+use tests::fuzz_body::{self, print};
 
 use super::models::{Model, corpus, samples};
 
@@ -109,4 +109,26 @@ fn differences_are_seen() {
         };
     };
     assert_eq!(changed(&pixel), Some("textures"));
+}
+
+/// What is hard to print: each must read back equal, and without a problem.
+#[test]
+fn hard_texts() {
+    for text in [
+        "Cube { width 2 ~ depth = USE name.of.width height ~ }",
+        "Translation { translation 1 2 3 = Cube { } . width }",
+        "Info { string \"a backslash at the end \\\"\n }",
+        "Info { string \"a \\\" quote, and a\nline end\" }",
+        "Switch { whichChild 010 } IndexedFaceSet { coordIndex [ 010, -1 # c\n 0x10 ] }",
+        "IndexedFaceSet { coordIndex [ 0, 1, 1e38, -1, 2.0 ] }",
+        "Coordinate3 { point [ -0.0 1e-320 3.4028234663852886e38, 0.1 0.30000000000000004 -1 ] }",
+        "DEF a+3 Cube { } DEF 1-b Cube { } USE a+3 USE 1-b",
+        "Cone { parts ( SIDES | BOTTOM ) } Cone { parts SIDES }",
+        "X { fields [ SFNode n, MFNode m ] n NULL m [ Cube { }, USE y, NULL ] }",
+        "Texture2 { image 1 2 3 0xff00ff 255 }",
+    ] {
+        let text = format!("#Inventor V2.1 ascii\n{text}");
+        assert_eq!(parse(text.as_bytes()).problems, [], "{text}");
+        fuzz_body::parse(text.as_bytes());
+    }
 }
