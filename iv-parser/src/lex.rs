@@ -2,7 +2,7 @@
 //!
 //! Every function takes the whole text and a position, and returns the position after the token.
 
-use memchr::memchr2;
+use memchr::{memchr2, memmem};
 use nom::IResult;
 use nom::Parser;
 use nom::bytes::complete::{take_while, take_while1};
@@ -88,6 +88,15 @@ pub fn to_blank(bytes: &[u8], at: usize) -> usize {
     found.map_or(at, |(rest, _)| bytes.len() - rest.len())
 }
 
+/// The end of a name glued to what follows: up to the next blank, bracket or comma.
+pub fn name_end(bytes: &[u8], at: usize) -> usize {
+    let ends = |b: &u8| is_blank(*b) || matches!(b, b'{' | b'}' | b'[' | b']' | b',');
+    bytes[at..]
+        .iter()
+        .position(ends)
+        .map_or(bytes.len(), |i| at + i)
+}
+
 /// How a quoted string ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StringEnd {
@@ -103,7 +112,6 @@ pub enum StringEnd {
 /// it ended. `\"` is a quote in the text, except right before a line end.
 pub fn string(bytes: &[u8], at: usize) -> (usize, usize, StringEnd) {
     let start = at + 1;
-    let mut first_escape = None;
     let mut i = start;
     while let Some(found) = memchr2(b'"', b'\\', &bytes[i..]) {
         let hit = i + found;
@@ -114,13 +122,19 @@ pub fn string(bytes: &[u8], at: usize) -> (usize, usize, StringEnd) {
             if matches!(bytes.get(hit + 2), Some(b'\n' | b'\r')) {
                 return (hit + 1, hit + 2, StringEnd::Closed);
             }
-            first_escape.get_or_insert(hit + 1);
             i = hit + 2;
         } else {
             i = hit + 1;
         }
     }
-    if let Some(quote) = first_escape {
+    open_string(bytes, at)
+}
+
+/// The string whose opening quote is at `at`, in a text where nothing closes it.
+pub fn open_string(bytes: &[u8], at: usize) -> (usize, usize, StringEnd) {
+    let start = at + 1;
+    if let Some(found) = memmem::find(&bytes[start..], b"\\\"") {
+        let quote = start + found + 1;
         return (quote, quote + 1, StringEnd::BackslashQuote);
     }
     let line_end = memchr2(b'\n', b'\r', &bytes[start..]).map_or(bytes.len(), |i| start + i);

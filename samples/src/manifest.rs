@@ -50,7 +50,7 @@ const fn remarked(
 /// Every sample, ordered by topic.
 #[rustfmt::skip]
 pub const ALL: &[Sample] = &[
-    sample("Garden pavilion", "pavilion.iv", "building", "a whole building in LV95 coordinates: shared parts, glass, textures, seven lights"),
+    remarked("Garden pavilion", "pavilion.iv", "building", "a whole building in LV95 coordinates: shared parts, glass, textures, seven lights", &["hidden"]),
     sample("Primitives", "shapes/primitives.iv", "shapes", "cube, cylinder, cone and sphere at three complexities, and some of their parts"),
     sample("Bracket", "shapes/bracket.iv", "shapes", "concave faces and a hole on a bridge edge"),
     sample("Gear", "shapes/gear.iv", "shapes", "a closed solid with large concave faces and a bore"),
@@ -65,15 +65,15 @@ pub const ALL: &[Sample] = &[
     sample("Window panes", "materials/window_panes.iv", "materials", "transparency, one-sided, two-sided and culled"),
     sample("Three kinds of light", "lights/three_kinds.iv", "lights", "sun, lantern and spot with ambient light and attenuation"),
     sample("Lamp scope", "lights/lamp_scope.iv", "lights", "a light ends with its Separator; a light switched off"),
-    sample("Cameras", "lights/cameras.iv", "lights", "a perspective camera under a transform and an orthographic one"),
+    remarked("Cameras", "lights/cameras.iv", "lights", "a perspective camera under a transform and an orthographic one", &["hidden"]),
     sample("Gate shadow", "lights/gate_shadow.iv", "lights", "thin closed solids before a low sun"),
     sample("Inline image", "textures/inline_image.iv", "textures", "pixels in the file, and a texture transform"),
     sample("Wrap modes", "textures/wrap_modes.iv", "textures", "a PNG repeated and clamped in S and T"),
     sample("Default coordinates", "textures/default_coordinates.iv", "textures", "texture coordinates that shapes make themselves; texturing ended"),
     sample("Missing image", "textures/missing_image.iv", "textures", "a texture file that is not there"),
-    sample("Flange bolts", "structure/flange_bolts.iv", "structure", "one bolt used 40 times"),
+    remarked("Flange bolts", "structure/flange_bolts.iv", "structure", "one bolt used 40 times", &["hidden"]),
     sample("Array copies", "structure/array_copies.iv", "structure", "Array and MultipleCopy"),
-    sample("Layers", "structure/layers.iv", "structure", "shown, hidden and alternative layers; levels of detail"),
+    remarked("Layers", "structure/layers.iv", "structure", "shown, hidden and alternative layers; levels of detail", &["hidden"]),
     sample("State scope", "structure/state_scope.iv", "structure", "what Separator, Group and TransformSeparator keep to themselves"),
     sample("Bolt part", "structure/bolt_part.iv", "structure", "a part that another file includes"),
     sample("Include", "structure/include_part.iv", "structure", "File nodes; names of the included file stay apart"),

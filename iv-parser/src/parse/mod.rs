@@ -48,6 +48,8 @@ pub fn parse_with<'a>(bytes: &'a [u8], limits: &Limits) -> Parse<'a> {
         open_items: Vec::new(),
         open_atoms: Vec::new(),
         odd_names: HashSet::new(),
+        longest_odd_name: 0,
+        unclosed: false,
         run: numbers::Run::default(),
         problems,
         problems_dropped: 0,
@@ -92,6 +94,9 @@ enum Frame {
     AfterMaster(FieldId),
 }
 
+/// Longest DEF name with a bracket in it that a USE is compared with.
+const LONGEST_ODD_NAME: usize = 256;
+
 struct Parser<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -102,6 +107,9 @@ struct Parser<'a> {
     open_atoms: Vec<Atom<'a>>,
     /// DEF names that hold braces or brackets.
     odd_names: HashSet<&'a [u8]>,
+    longest_odd_name: usize,
+    /// A string was found that nothing closes.
+    unclosed: bool,
     /// Buffers for the run of numbers being read.
     run: numbers::Run,
     problems: Vec<Problem>,
@@ -214,19 +222,16 @@ impl<'a> Parser<'a> {
     fn opt_definition(&mut self, start: usize, end: usize) -> Option<Child<'a>> {
         let name_start = lex::skip_trivia(self.bytes, end);
         let full = lex::to_blank(self.bytes, name_start);
-        // As in Coin a name goes on to the next blank; if no class follows it, it was glued.
-        let cuts = [full, self.first_bracket(name_start, full)];
-        for name_end in cuts {
-            let name = &self.bytes[name_start..name_end];
-            let class_start = lex::skip_trivia(self.bytes, name_end);
-            let Some(class_end) = lex::name(self.bytes, class_start) else {
-                continue;
-            };
-            if name.is_empty() || !self.is_body_next(class_end) {
-                continue;
-            }
-            if name_end == full && self.first_bracket(name_start, full) < full {
+        // As in Coin a name goes on to the next blank.
+        let name = &self.bytes[name_start..full];
+        let class_start = lex::skip_trivia(self.bytes, full);
+        if let Some(class_end) = lex::name(self.bytes, class_start)
+            && !name.is_empty()
+            && self.is_body_next(class_end)
+        {
+            if name.len() <= LONGEST_ODD_NAME && self.first_bracket(name_start, full) < full {
                 self.odd_names.insert(name);
+                self.longest_odd_name = self.longest_odd_name.max(name.len());
             }
             self.at = lex::skip_trivia(self.bytes, class_end) + 1;
             let class = &self.bytes[class_start..class_end];
@@ -243,23 +248,20 @@ impl<'a> Parser<'a> {
     }
 
     fn first_bracket(&self, start: usize, end: usize) -> usize {
-        let is_bracket = |b: &u8| matches!(b, b'{' | b'}' | b'[' | b']' | b',');
-        self.bytes[start..end]
-            .iter()
-            .position(is_bracket)
-            .map_or(end, |i| start + i)
+        lex::name_end(&self.bytes[..end], start)
     }
 
     /// The name behind `USE`: up to the next blank, or up to a bracket glued to it.
     fn use_name(&mut self) -> (&'a [u8], Span) {
         let start = self.at;
-        let full = lex::to_blank(self.bytes, start);
-        let cut = self.first_bracket(start, full);
-        let whole: &'a [u8] = &self.bytes[start..full];
-        let end = if cut < full && self.odd_names.contains(whole) {
+        // Looks no further than an odd name can reach, so that many names without a blank
+        // between them cost one pass.
+        let reach = self.bytes.len().min(start + self.longest_odd_name + 1);
+        let full = lex::to_blank(&self.bytes[..reach], start);
+        let end = if self.odd_names.contains(&self.bytes[start..full]) {
             full
         } else {
-            cut
+            lex::name_end(self.bytes, start)
         };
         self.at = end;
         (&self.bytes[start..end], Span::new(start, end))
@@ -284,6 +286,18 @@ impl<'a> Parser<'a> {
             self.frames.push(Frame::Body { node: id, items });
         }
         Child::Node(id)
+    }
+
+    /// The string here, as by [`lex::string`]. Where one is not closed, none behind it is: that is
+    /// found out once only.
+    fn quoted(&mut self) -> (usize, usize, lex::StringEnd) {
+        let found = if self.unclosed {
+            lex::open_string(self.bytes, self.at)
+        } else {
+            lex::string(self.bytes, self.at)
+        };
+        self.unclosed |= found.2 != lex::StringEnd::Closed;
+        found
     }
 
     fn peek(&self) -> Option<u8> {

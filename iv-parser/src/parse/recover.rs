@@ -8,7 +8,7 @@ impl Parser<'_> {
     pub(super) fn skip_junk(&mut self) {
         self.at = match self.peek() {
             None => self.at,
-            Some(b'"') => lex::string(self.bytes, self.at).1,
+            Some(b'"') => self.quoted().1,
             Some(_) => lex::word(self.bytes, self.at).max(self.at + 1),
         };
     }
@@ -20,7 +20,7 @@ impl Parser<'_> {
         while let Some(b) = self.peek() {
             match b {
                 b'#' => self.at = lex::skip_comment(self.bytes, self.at),
-                b'"' => self.at = lex::string(self.bytes, self.at).1,
+                b'"' => self.at = self.quoted().1,
                 b'{' => {
                     depth += 1;
                     self.at += 1;

@@ -259,7 +259,7 @@ impl<'a> Parser<'a> {
 
     fn string(&mut self) -> Atom<'a> {
         let start = self.at;
-        let (text_end, end, ending) = lex::string(self.bytes, start);
+        let (text_end, end, ending) = self.quoted();
         self.at = end;
         let hint = match ending {
             StringEnd::Closed => "",

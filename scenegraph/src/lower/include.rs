@@ -173,7 +173,8 @@ impl Builder<'_> {
         self.includes.connect(from, file);
         let name = self.shown(&loaded.id);
         let folder = loaded.id.parent().unwrap_or(Path::new("")).to_owned();
-        let root = self.file(&loaded.bytes, name, &folder);
+        // As in SoFile: what stands at the top of the file leaks into the one that includes it.
+        let root = self.file(&loaded.bytes, name, &folder, Class::Group);
         self.includes.known.insert(loaded.id, (file, root));
         Ok(root)
     }

@@ -18,6 +18,8 @@ use iv_parser::{
     SourcePos, Span, Tree,
 };
 
+use rustc_hash::FxHashMap;
+
 use crate::graph::{Graph, Kind, Node, NodeId, SourceFile};
 use crate::loader::Loader;
 use crate::registry::Class;
@@ -50,7 +52,7 @@ pub fn load_with(
         includes: Includes::new(loader),
         limits: *limits,
     };
-    let root = builder.file(bytes, name.into(), folder);
+    let root = builder.file(bytes, name.into(), folder, Class::Separator);
     builder.includes.know_root(name, folder, root);
     builder.load_includes();
     Graph {
@@ -81,8 +83,9 @@ struct Builder<'l> {
 }
 
 impl Builder<'_> {
-    /// Adds one file; returns its root.
-    fn file(&mut self, bytes: &[u8], name: Arc<str>, folder: &Path) -> NodeId {
+    /// Adds one file; returns its root: the only Separator at its top, or one group of class
+    /// `around` around all that is there.
+    fn file(&mut self, bytes: &[u8], name: Arc<str>, folder: &Path, around: Class) -> NodeId {
         let index = self.files.len() as u32;
         let parsed = iv_parser::parse_with(bytes, &self.limits);
         let header = parsed.tree.header;
@@ -107,11 +110,15 @@ impl Builder<'_> {
                 base: self.nodes.len() as u32,
                 lines: LineCounter::new(index),
                 owner: iv_parser::NodeId(0),
+                guesses: FxHashMap::default(),
+                dropped: 0,
                 problems: &mut problems,
                 builder: self,
             };
             file.nodes();
-            file.root()
+            let root = file.root(around);
+            dropped += file.dropped;
+            root
         } else {
             dropped = 0;
             if !is_foreign {
@@ -203,12 +210,16 @@ struct File<'b, 't, 'a, 'l> {
     lines: LineCounter,
     /// The node being added.
     owner: iv_parser::NodeId,
+    /// Hints for the unknown classes met so far.
+    guesses: FxHashMap<String, String>,
+    /// Problems that were not kept.
+    dropped: usize,
     problems: &'b mut Vec<Problem>,
     builder: &'b mut Builder<'l>,
 }
 
 impl<'a> File<'_, '_, 'a, '_> {
-    fn root(&mut self) -> NodeId {
+    fn root(&mut self, around: Class) -> NodeId {
         let roots = self.tree.children_of_root().to_vec();
         let children: Vec<NodeId> = roots.iter().filter_map(|&c| self.child(c)).collect();
         if let [only] = children[..]
@@ -226,7 +237,7 @@ impl<'a> File<'_, '_, 'a, '_> {
             );
         }
         self.builder.add(Node {
-            kind: Kind::Known(Class::Separator),
+            kind: Kind::Known(around),
             name: None,
             fields: Vec::new(),
             children,

@@ -23,12 +23,22 @@ impl<'a> File<'_, '_, 'a, '_> {
             let mut old = Vec::new();
             let node = self.node(TreeId(i), &mut old);
             self.builder.nodes.push(node);
+            self.drop_surplus_problems();
             if !old.is_empty() {
                 splits.push((NodeId(self.base + i), old));
             }
         }
         for (id, old) in splits {
             upgrade::split(self, id, &old);
+        }
+    }
+
+    /// Keeps the list of problems short while a file that has one at every node is read.
+    fn drop_surplus_problems(&mut self) {
+        let limit = self.builder.limits.problems;
+        if self.problems.len() > 2 * limit {
+            self.dropped += self.problems.len() - limit;
+            self.problems.truncate(limit);
         }
     }
 
@@ -54,6 +64,9 @@ impl<'a> File<'_, '_, 'a, '_> {
                 let header = tree.header;
                 if header.is_older_than(2, 1) {
                     upgrade::upgrade(&mut node, old, header.version);
+                }
+                if class == Class::WWWInline && node.entry("name").is_none() {
+                    node.children = node.node_field("alternateRep").into_iter().collect();
                 }
                 self.note_include(id, &node);
             }
@@ -254,6 +267,21 @@ impl<'a> File<'_, '_, 'a, '_> {
         self.problem(Severity::Warning, "unknown-field", message, &hint, span);
     }
 
+    /// A hint at the class that an unknown name may mean, looked for once for each name, and not at
+    /// all once no more problems are kept.
+    fn guess(&mut self, class: &str) -> String {
+        if self.problems.len() >= self.builder.limits.problems {
+            return String::new();
+        }
+        if let Some(known) = self.guesses.get(class) {
+            return known.clone();
+        }
+        let found = Class::closest(class);
+        let text = found.map_or(String::new(), |c| format!("; did you mean {}?", c.name()));
+        self.guesses.insert(class.to_owned(), text.clone());
+        text
+    }
+
     /// A class that nobody knows: what is drawn in its place are its `alternateRep`, else the
     /// nodes in it.
     fn unknown(&mut self, id: TreeId, node: &mut Node) {
@@ -275,8 +303,7 @@ impl<'a> File<'_, '_, 'a, '_> {
             }
         }
         let class = node.class_name().to_owned();
-        let guess = Class::closest(&class);
-        let guess = guess.map_or(String::new(), |c| format!("; did you mean {}?", c.name()));
+        let guess = self.guess(&class);
         let (severity, what) = match (alternate, node.children.is_empty()) {
             (Some(alternate), _) => {
                 node.children = vec![alternate];

@@ -23,8 +23,8 @@ TextureCoordinate2: Node, Full, [],
     "Texture coordinates." {
     point: MFVec2f = "[]";
 }
-TextureCoordinate3: Node, Partial, [],
-    "Texture coordinates in space; the third number is lost. Coin and TGS addition." {
+TextureCoordinate3: Node, Planned, [],
+    "Texture coordinates in space; not used yet. Coin and TGS addition." {
     point: MFVec3f = "[]";
 }
 TextureCoordinateBinding: Node, Full, [],
@@ -41,8 +41,8 @@ TextureCoordinatePlane: TextureCoordinateFunction, Full, [],
     directionT: SFVec3f = "0 1 0";
     directionR: SFVec3f = "0 0 1";
 }
-TextureCoordinateObject: TextureCoordinateFunction, Planned, [],
-    "Texture coordinates by planes in object space. Coin addition." {
+TextureCoordinateObject: TextureCoordinateFunction, Partial, [],
+    "Texture coordinates by planes in object space; R and Q are not used. Coin addition." {
     factorS: SFVec4f = "1 0 0 0";
     factorT: SFVec4f = "0 1 0 0";
     factorR: SFVec4f = "0 0 1 0";
@@ -72,9 +72,9 @@ VertexAttributeBinding: Node, Kept, [],
     "How vertex attributes are dealt out. Coin addition." {
     value: SFEnum = "OVERALL" [OVERALL, PER_VERTEX, PER_VERTEX_INDEXED, DEFAULT = 2];
 }
-VertexProperty: Node, Full, [],
+VertexProperty: Node, Partial, [],
     "Coordinates, normals, colours and texture coordinates in one node; lists that are not empty \
-     override the state. texCoord3 and textureUnit are Coin's and TGS's." {
+     override the state. texCoord3 and textureUnit (Coin, TGS) are not used." {
     vertex: MFVec3f = "[]";
     texCoord: MFVec2f = "[]";
     texCoord3: MFVec3f = "[]";

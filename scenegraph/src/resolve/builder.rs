@@ -34,8 +34,8 @@ pub(super) struct Builder {
     measures: Vec<Measure>,
     materials: FxHashMap<MaterialKey, MaterialId>,
     textures: FxHashMap<NodeId, TextureId>,
-    /// Each list: the one it continues, and the light it adds.
-    light_lists: Vec<(LightList, LightId)>,
+    /// Each list: the one it continues, the light it adds, and its length.
+    light_lists: Vec<(LightList, LightId, usize)>,
     light_sets: FxHashMap<LightList, LightSetId>,
     light_set_entries: usize,
     environments: FxHashMap<Vec<u64>, EnvironmentId>,
@@ -89,7 +89,8 @@ impl Builder {
     pub fn light(&mut self, light: Light, list: LightList) -> LightList {
         let id = LightId(self.scene.lights.len() as u32);
         self.scene.lights.push(light);
-        self.light_lists.push((list, id));
+        let length = self.light_list_length(list) + 1;
+        self.light_lists.push((list, id, length));
         LightList(self.light_lists.len() as u32)
     }
 
@@ -102,15 +103,16 @@ impl Builder {
         if let Some(&known) = self.light_sets.get(&list) {
             return Some(known);
         }
-        let mut lights = Vec::new();
+        let length = self.light_list_length(list);
+        if self.light_set_entries + length > MAX_LIGHT_SET_ENTRIES {
+            return None;
+        }
+        let mut lights = Vec::with_capacity(length);
         let mut rest = list;
-        while let Some(&(before, light)) = (rest.0 as usize)
+        while let Some(&(before, light, _)) = (rest.0 as usize)
             .checked_sub(1)
             .and_then(|i| self.light_lists.get(i))
         {
-            if self.light_set_entries + lights.len() >= MAX_LIGHT_SET_ENTRIES {
-                return None;
-            }
             lights.push(light);
             rest = before;
         }
@@ -120,6 +122,11 @@ impl Builder {
         self.scene.light_sets.push(lights);
         self.light_sets.insert(list, id);
         Some(id)
+    }
+
+    fn light_list_length(&self, list: LightList) -> usize {
+        let entry = (list.0 as usize).checked_sub(1);
+        entry.map_or(0, |i| self.light_lists[i].2)
     }
 
     pub fn environment(&mut self, environment: &Environment) -> EnvironmentId {

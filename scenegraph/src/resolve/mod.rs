@@ -51,7 +51,7 @@ impl Default for ResolveLimits {
             steps: 20_000_000,
             depth: 1000,
             items: 2_000_000,
-            geometry_bytes: 16 << 30,
+            geometry_bytes: usize::try_from(16_u64 << 30).unwrap_or(usize::MAX),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Property nodes: those that only write into the state.
 
 use glam::{DMat3, DVec2, DVec3};
+use iv_parser::Dialect;
 
 use crate::graph::{FieldValue, Node, NodeId};
 use crate::registry::Class;
@@ -26,8 +27,9 @@ impl Walk<'_> {
                     state.normals = (!node.numbers("vector").is_empty()).then_some(id);
                 }
             }
+            Class::TextureCoordinate2 if node.is_ignored("point") => {}
             Class::TextureCoordinate2 => {
-                let given = !node.numbers("point").is_empty() && !node.is_ignored("point");
+                let given = !node.numbers("point").is_empty();
                 state.texcoords = if given {
                     TexCoords::List(id)
                 } else {
@@ -39,6 +41,9 @@ impl Walk<'_> {
                 state.texcoords = TexCoords::Function(id);
             }
             Class::VertexProperty => vertex_property(node, id, state),
+            Class::NormalBinding | Class::MaterialBinding | Class::TextureCoordinateBinding
+                if node.is_ignored("value") => {}
+            Class::LightModel if node.is_ignored("model") => {}
             Class::NormalBinding => {
                 state.normal_binding =
                     Binding::from_word(node.word("value"), Binding::PerVertexIndexed);
@@ -54,13 +59,11 @@ impl Walk<'_> {
             Class::BaseColor => {
                 if !node.numbers("rgb").is_empty() && !node.is_ignored("rgb") {
                     state.material.diffuse = ColorSource::Base(id);
-                    state.material.transparency = ColorSource::Base(id);
                 }
             }
             Class::PackedColor => {
                 if !node.ints("orderedRGBA").is_empty() && !node.is_ignored("orderedRGBA") {
                     state.material.diffuse = ColorSource::Packed(id);
-                    state.material.transparency = ColorSource::Packed(id);
                 }
             }
             Class::LightModel => {
@@ -69,7 +72,10 @@ impl Walk<'_> {
                     _ => LightModel::Phong,
                 };
             }
-            Class::ShapeHints => shape_hints(node, state, self.vrml1),
+            Class::ShapeHints => {
+                let file = &graph.files[node.pos.file as usize];
+                shape_hints(node, state, file.header.dialect == Dialect::Vrml1);
+            }
             Class::Complexity => {
                 if node.word("type") == "BOUNDING_BOX" {
                     self.remarks.warn(
@@ -145,7 +151,6 @@ fn vertex_property(node: &Node, id: NodeId, state: &mut State) {
     }
     if !node.ints("orderedRGBA").is_empty() {
         state.material.diffuse = ColorSource::Packed(id);
-        state.material.transparency = ColorSource::Packed(id);
         state.material_binding = Binding::from_word(node.word("materialBinding"), Binding::Overall);
     }
 }

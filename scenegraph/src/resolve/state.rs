@@ -69,7 +69,7 @@ pub enum ColorSource {
     Default,
     /// `Material.diffuseColor`, `Material.transparency`.
     Material(NodeId),
-    /// `BaseColor.rgb`; opaque.
+    /// `BaseColor.rgb`.
     Base(NodeId),
     /// `PackedColor.orderedRGBA` or `VertexProperty.orderedRGBA`.
     Packed(NodeId),
@@ -129,8 +129,6 @@ pub struct State {
     pub base: usize,
     /// The current transform in the frame `base`.
     pub relative: DAffine3,
-    /// The current transform in the world.
-    pub world: DAffine3,
     /// `Units` in metres.
     pub units_m: f64,
     /// Which copy or child the nearest group around chose, for `Switch` to inherit.
@@ -162,7 +160,6 @@ impl State {
         Self {
             base: 0,
             relative: DAffine3::IDENTITY,
-            world: DAffine3::IDENTITY,
             units_m: 1.0,
             choice: -1,
             coordinates: None,
@@ -205,6 +202,5 @@ impl State {
     /// Multiplies a transform onto the current one: later transforms are inner.
     pub fn transform(&mut self, local: &DAffine3) {
         self.relative *= *local;
-        self.world *= *local;
     }
 }

@@ -35,7 +35,6 @@ pub fn apply(class: Class, node: &Node, state: &mut State, remarks: &mut Remarks
             if node.has_bits("whatToReset", "TRANSFORM") {
                 state.base = 0;
                 state.relative = DAffine3::IDENTITY;
-                state.world = DAffine3::IDENTITY;
             }
         }
         Class::Units => units(node, state),

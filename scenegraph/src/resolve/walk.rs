@@ -23,7 +23,6 @@ enum Keep {
     Matrix {
         base: usize,
         relative: DAffine3,
-        world: DAffine3,
         units_m: f64,
     },
     /// Nothing: what it sets leaks to its following siblings.
@@ -53,6 +52,7 @@ pub(super) struct Frame {
     node: NodeId,
     parent_base: usize,
     parent_from_local: DAffine3,
+    world_from_local: DAffine3,
     /// Made when something in it is placed.
     scene_node: Option<scene::NodeId>,
     notes: Vec<Arc<str>>,
@@ -65,7 +65,6 @@ pub(super) struct Walk<'g> {
     pub builder: Builder,
     pub remarks: Remarks,
     pub shapes: ShapeMaker,
-    pub vrml1: bool,
     /// For each node whether it is the child of several.
     several_parents: Vec<bool>,
     stack: Vec<Open>,
@@ -90,7 +89,6 @@ impl<'g> Walk<'g> {
             builder,
             remarks: Remarks::default(),
             shapes: ShapeMaker::default(),
-            vrml1,
             several_parents: several_parents(graph),
             stack: Vec::new(),
             frames: Vec::new(),
@@ -198,14 +196,12 @@ impl<'g> Walk<'g> {
                 let State {
                     base,
                     relative,
-                    world,
                     units_m,
                     ..
                 } = self.state;
                 let keep = Keep::Matrix {
                     base,
                     relative,
-                    world,
                     units_m,
                 };
                 self.push(id, 0, count, keep, None);
@@ -251,15 +247,18 @@ impl<'g> Walk<'g> {
             node.int("whichChild")
         };
         let which = match which {
-            -2 if self.state.choice >= 0 && count > 0 => self.state.choice % count as i32,
+            -2 if self.state.choice >= 0 && count > 0 => {
+                (self.state.choice as usize % count) as i32
+            }
+            -2 => self.state.choice,
             -1 if class == Class::Blinker => 0,
             other => other,
         };
+        if node.is_ignored("whichChild") || node.int("whichChild") != -2 {
+            self.state.choice = which;
+        }
         match usize::try_from(which) {
-            Ok(i) if i < count => {
-                self.state.choice = which;
-                (i, i + 1)
-            }
+            Ok(i) if i < count => (i, i + 1),
             Err(_) if which == -3 => (0, count),
             _ => (0, 0),
         }
@@ -293,6 +292,7 @@ impl<'g> Walk<'g> {
             node,
             parent_base: self.state.base,
             parent_from_local: self.state.relative,
+            world_from_local: self.world(),
             scene_node: None,
             notes: Vec::new(),
         });
@@ -327,12 +327,10 @@ impl<'g> Walk<'g> {
             Keep::Matrix {
                 base,
                 relative,
-                world,
                 units_m,
             } => {
                 self.state.base = base;
                 self.state.relative = relative;
-                self.state.world = world;
                 self.state.units_m = units_m;
             }
             // A ResetTransform inside has left the frame already.
@@ -361,11 +359,9 @@ impl<'g> Walk<'g> {
         let index = copies.next;
         copies.next += 1;
         *next = 0;
-        let world = saved.world;
         self.state = (**saved).clone();
         self.state.base = depth;
         self.state.relative = DAffine3::IDENTITY;
-        self.state.world = world;
         self.state.choice = index.min(i32::MAX as u64) as i32;
         let graph = self.graph;
         let node = graph.node(*node);
@@ -382,9 +378,17 @@ impl<'g> Walk<'g> {
         self.state.transform(&local);
     }
 
+    /// The current transform in the world.
+    fn world(&self) -> DAffine3 {
+        let frame = self.state.base.checked_sub(1).map(|i| &self.frames[i]);
+        frame.map_or(self.state.relative, |f| {
+            f.world_from_local * self.state.relative
+        })
+    }
+
     /// Whether something of the current state can be placed; says so if not.
     pub(super) fn can_place(&mut self, node: &Node) -> bool {
-        if !self.state.world.is_finite() {
+        if !self.world().is_finite() {
             self.remarks.add(
                 Severity::Error,
                 "transform-overflow",
@@ -413,7 +417,7 @@ impl<'g> Walk<'g> {
         Placement {
             node: self.scene_node(self.state.base),
             parent_from_local: self.state.relative,
-            world_from_local: self.state.world,
+            world_from_local: self.world(),
             name: node.name.clone(),
             pos: node.pos,
         }
@@ -462,7 +466,9 @@ fn copies(class: Class, node: &Node) -> u64 {
         return (node.numbers("matrix").len() / 16) as u64;
     }
     let count = |field: &str| node.int(field).max(0) as u64;
-    count("numElements1") * count("numElements2") * count("numElements3")
+    count("numElements1")
+        .saturating_mul(count("numElements2"))
+        .saturating_mul(count("numElements3"))
 }
 
 /// Direction 1 varies fastest; `origin` says whether the first, the middle or the last copy stays

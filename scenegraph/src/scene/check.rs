@@ -132,31 +132,31 @@ impl Scene {
     fn placement_adds_up(&self, placement: &Placement) -> bool {
         let mut product = placement.parent_from_local;
         let mut node = placement.node;
-        let mut magnitude = scale_of(&product);
+        let mut magnitude = abs(&product);
+        let mut factors = 1.0;
         while let Some(id) = node {
             let Some(entry) = self.nodes.get(id.index()) else {
                 return false;
             };
             product = entry.parent_from_local * product;
-            magnitude = magnitude
-                .max(scale_of(&entry.parent_from_local))
-                .max(scale_of(&product));
+            magnitude = abs(&entry.parent_from_local) * magnitude;
+            factors += 1.0;
             node = entry.parent;
         }
         if !placement.world_from_local.is_finite() {
             return false;
         }
-        // The two products associate differently. Each entry of either is a sum of products that
-        // `magnitude` bounds, with a few roundings a factor.
-        let bound = 1e-13 * magnitude;
+        // The two products associate differently. However a product of n matrices associates, its
+        // entries err by at most 4n roundings of those of the product of absolute values
+        // (Higham, Accuracy and Stability of Numerical Algorithms, 3.5).
+        let unit = 8.0 * f64::EPSILON * factors;
         let a = product.to_cols_array();
         let b = placement.world_from_local.to_cols_array();
-        a.iter().zip(b).all(|(x, y)| (x - y).abs() <= bound)
+        let bounds = magnitude.to_cols_array().map(|m| unit * m);
+        (a.iter().zip(b).zip(bounds)).all(|((x, y), bound)| (x - y).abs() <= bound)
     }
 }
 
-fn scale_of(m: &DAffine3) -> f64 {
-    m.to_cols_array()
-        .iter()
-        .fold(0.0, |a: f64, x| a.max(x.abs()))
+fn abs(m: &DAffine3) -> DAffine3 {
+    DAffine3::from_mat3_translation(m.matrix3.abs(), m.translation.abs())
 }

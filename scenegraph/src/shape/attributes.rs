@@ -1,7 +1,7 @@
 //! The arrays and bindings that a shape sees: those of the state, or of its `vertexProperty`.
 
 use glam::DMat3;
-use iv_parser::SourcePos;
+use iv_parser::{Dialect, SourcePos};
 
 use crate::graph::{Graph, Node, NodeId};
 use crate::registry::Class;
@@ -30,6 +30,8 @@ pub struct Attributes<'g> {
     pub texture_transform: DMat3,
     pub ordering: Ordering,
     pub crease_angle_rad: f64,
+    /// The shape stands in a VRML 1 file.
+    pub vrml1: bool,
 }
 
 /// Where texture coordinates come from.
@@ -54,7 +56,6 @@ impl<'g> Attributes<'g> {
             .map_or(&[][..], |id| normals_of(graph.node(id)));
         let mut normal_binding = state.normal_binding;
         let mut diffuse = state.material.diffuse;
-        let mut transparency = state.material.transparency;
         let mut color_binding = state.material_binding;
         let mut texcoords = match state.texcoords {
             TexCoords::Default => TexCoordSource::Default,
@@ -75,7 +76,6 @@ impl<'g> Attributes<'g> {
             }
             if !own.ints("orderedRGBA").is_empty() {
                 diffuse = ColorSource::Packed(id);
-                transparency = ColorSource::Packed(id);
                 color_binding = Binding::from_word(own.word("materialBinding"), Binding::Overall);
             }
             if !own.numbers("texCoord").is_empty() {
@@ -89,13 +89,14 @@ impl<'g> Attributes<'g> {
             coordinate_size,
             normals,
             normal_binding,
-            colors: Colors::of(graph, diffuse, transparency, color_binding),
+            colors: Colors::of(graph, diffuse, state.material.transparency, color_binding),
             color_binding,
             texcoords: state.texture.map(|_| texcoords),
             texcoord_binding: state.texcoord_binding,
             texture_transform: state.texture_transform,
             ordering: state.hints.ordering,
             crease_angle_rad: state.hints.crease_angle_rad,
+            vrml1: graph.files[node.pos.file as usize].header.dialect == Dialect::Vrml1,
         }
     }
 

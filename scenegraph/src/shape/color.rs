@@ -30,16 +30,18 @@ impl<'g> Colors<'g> {
         binding: Binding,
     ) -> Self {
         let packed = |id: NodeId| graph.node(id).ints("orderedRGBA");
+        // The alpha of packed colours counts while they are the diffuse colours; behind a
+        // BaseColor the transparency of the last Material is in force again.
+        let (transparencies, packed_alpha) = match (diffuse, transparency) {
+            (ColorSource::Packed(id), _) => (&[][..], Some(packed(id))),
+            (_, ColorSource::Material(id)) => (graph.node(id).numbers("transparency"), None),
+            _ => (&[][..], None),
+        };
         let diffuse = match diffuse {
             ColorSource::Default => Diffuse::Default,
             ColorSource::Material(id) => Diffuse::Triples(graph.node(id).numbers("diffuseColor")),
             ColorSource::Base(id) => Diffuse::Triples(graph.node(id).numbers("rgb")),
             ColorSource::Packed(id) => Diffuse::Packed(packed(id)),
-        };
-        let (transparencies, packed_alpha) = match transparency {
-            ColorSource::Default | ColorSource::Base(_) => (&[][..], None),
-            ColorSource::Material(id) => (graph.node(id).numbers("transparency"), None),
-            ColorSource::Packed(id) => (&[][..], Some(packed(id))),
         };
         let count = match diffuse {
             Diffuse::Default => 1,

@@ -95,17 +95,19 @@ enum Rule<'g> {
 
 impl Rule<'_> {
     fn at(&self, spot: &Spot) -> u32 {
-        let listed =
-            |list: &[i32], i: usize| list.get(i).map_or(spot.coordinate, |&v| v.max(0) as u32);
+        // A list that is too short goes on with what it would be without one.
+        let listed = |list: &[i32], i: usize, without: usize| {
+            list.get(i).map_or(without as u32, |&v| v.max(0) as u32)
+        };
         match self {
             Self::Nothing | Self::First => 0,
             Self::Coordinate => spot.coordinate,
             Self::Part => spot.part as u32,
             Self::Face => spot.face as u32,
             Self::Corner => spot.corner as u32,
-            Self::PartIndex(list) => listed(list, spot.part),
-            Self::FaceIndex(list) => listed(list, spot.face),
-            Self::SlotIndex(list) => listed(list, spot.slot),
+            Self::PartIndex(list) => listed(list, spot.part, spot.part),
+            Self::FaceIndex(list) => listed(list, spot.face, spot.face),
+            Self::SlotIndex(list) => listed(list, spot.slot, spot.coordinate as usize),
         }
     }
 }
@@ -145,6 +147,8 @@ impl<'g> Collector<'g> {
                 (Binding::PerPart, _) if parts == Parts::AreFaces => Rule::Face,
                 (Binding::PerPart, _) => Rule::Part,
                 (Binding::PerFace, _) => Rule::Face,
+                // VRML 1 has no running count: a vertex is its coordinate (SoIndexedFaceSet).
+                (Binding::PerVertex, _) if indexed && attributes.vrml1 => Rule::Coordinate,
                 (Binding::PerVertex, _) => Rule::Corner,
                 (Binding::PerPartIndexed, Some(index)) if parts == Parts::Own => {
                     Rule::PartIndex(index)
@@ -482,7 +486,9 @@ fn quads(attributes: &Attributes<'_>, remarks: &mut Remarks) -> Corners {
     let columns = node.int("verticesPerRow").max(0) as usize;
     let mut rows = node.int("verticesPerColumn").max(0) as usize;
     let available = attributes.coordinate_count().saturating_sub(start);
-    if columns > 0 && rows > available / columns {
+    if columns == 0 {
+        rows = 0;
+    } else if rows > available / columns {
         remarks.warn(
             "short-coordinates",
             "QuadMesh has fewer coordinates than its rows and columns need",

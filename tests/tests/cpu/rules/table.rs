@@ -34,6 +34,7 @@ pub const RULES: &[Rule] = &[
         name: "a Switch shows nothing by default",
         text: "Separator { Switch { Sphere { } Cone { } } }",
         counts: Some([0, 0, 0]),
+        codes: &["hidden"],
         ..RULE
     },
     Rule {
@@ -365,6 +366,7 @@ pub const RULES: &[Rule] = &[
         name: "what is invisible is not drawn",
         text: "Separator { DrawStyle { style INVISIBLE } Cube { } }",
         counts: Some([0, 0, 0]),
+        codes: &["hidden"],
         ..RULE
     },
     Rule {
@@ -373,6 +375,7 @@ pub const RULES: &[Rule] = &[
         text: "LOD { range [ 5, 9 ] Cube { width 4 } Sphere { } Cone { } }",
         counts: Some([12, 0, 0]),
         bounds: Some([[-2.0, -1.0, -1.0], [2.0, 1.0, 1.0]]),
+        codes: &["hidden"],
         ..RULE
     },
     Rule {
