@@ -1,7 +1,7 @@
 //! Which output each input gets, settled before anything is read, so that no output can destroy
 //! an input or another output.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::args::{Args, Format};
@@ -15,11 +15,22 @@ use super::inputs::{Input, identity};
 pub fn outputs(args: &Args, inputs: &[Input]) -> Result<Vec<Option<PathBuf>>, String> {
     check_single(args, inputs)?;
     let format = args.format()?;
+    let mut taken = BTreeSet::new();
     let outputs: Vec<Option<PathBuf>> = inputs
         .iter()
         .map(|input| {
-            let is_file = input.fault.is_none();
-            is_file.then(|| output_of(args, format, input))
+            if input.fault.is_some() {
+                return None;
+            }
+            let mut output = output_of(args, format, input);
+            // Of files found in folders, `a.wrl` beside `a.iv` keeps its whole name.
+            if !taken.insert(identity(&output)) && input.is_found {
+                let mut name = input.path.file_name().unwrap_or_default().to_owned();
+                name.push(".");
+                name.push(format.extension());
+                output.set_file_name(name);
+            }
+            Some(output)
         })
         .collect();
     check_distinct(args, format, inputs, &outputs)?;
@@ -35,6 +46,9 @@ fn check_single(args: &Args, inputs: &[Input]) -> Result<(), String> {
         return Err(
             "-o is for a single input file; use --out-dir for several and for folders".to_owned(),
         );
+    }
+    if output == Path::new("-") {
+        return Err("outputs are files; standard output is not one of them".to_owned());
     }
     if output.is_dir() {
         return Err(format!(

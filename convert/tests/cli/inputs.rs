@@ -101,3 +101,18 @@ fn other_files_come_from_the_own_folder_and_search_folders_only() {
         );
     }
 }
+
+#[test]
+fn found_files_of_one_stem_keep_both_outputs() {
+    let place = Place::new()
+        .model("models/x.iv", CUBE)
+        .model("models/x.wrl", CUBE);
+    let run = place.run("models --out-dir out");
+    assert_eq!(run.code, 0, "{}", run.err);
+    let names = place.names();
+    let out: Vec<&String> = names.iter().filter(|n| n.starts_with("out")).collect();
+    assert_eq!(out, ["out/x.glb", "out/x.wrl.glb"]);
+    // Named ones are not guessed at.
+    let run = place.run("models/x.iv models/x.wrl --out-dir named");
+    assert_eq!(run.code, 2, "{}", run.err);
+}

@@ -99,6 +99,7 @@ fn exit_codes_and_messages() {
             2,
             &["`folder` is a folder; use --out-dir"],
         ),
+        ("cube.iv -o -", 2, &["standard output"]),
         ("cube.iv -o a.obj", 2, &["`a.obj` ends in none of"]),
         (
             "cube.iv -o a.glb --format iv",
