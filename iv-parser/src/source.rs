@@ -71,14 +71,24 @@ impl Source<'_> {
 
     fn diagnostic(&self, problem: Problem, lines: &mut LineCounter) -> Diagnostic {
         let at = (problem.span.start as usize).min(self.bytes.len());
+        // An empty span at the beginning means the file as a whole.
+        let has_place = problem.span != Span::default();
         Diagnostic {
             severity: problem.severity,
             code: problem.code,
             message: problem.message,
             hint: problem.hint,
             file: Arc::clone(self.name),
-            pos: lines.position(self.bytes, at),
-            snippet: self.snippet(at, problem.span.end as usize),
+            pos: match has_place {
+                true => lines.position(self.bytes, at),
+                false => SourcePos {
+                    file: self.file,
+                    ..SourcePos::default()
+                },
+            },
+            snippet: has_place
+                .then(|| self.snippet(at, problem.span.end as usize))
+                .flatten(),
         }
     }
 

@@ -202,7 +202,9 @@ impl Totals {
         let is_error = |d: &&Diagnostic| d.severity == Severity::Error;
         let errors = outcome.diagnostics.iter().filter(is_error).count();
         self.errors += errors;
-        self.warnings += outcome.diagnostics.len() - errors + outcome.warnings.len();
+        let is_warning = |d: &&Diagnostic| d.severity == Severity::Warning;
+        let warnings = outcome.diagnostics.iter().filter(is_warning).count();
+        self.warnings += warnings + outcome.warnings.len();
         let losses = outcome.losses.iter();
         self.losses += losses.filter(|l| !l.loss.kind.is_minor()).count();
         let remarks = outcome.diagnostics.iter().chain(&outcome.warnings);

@@ -91,10 +91,12 @@ fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>]) -> u8 {
         screen.message(&messages::error_line("--report", &why));
     }
     screen.finish();
-    if !args.quiet {
+    let code = totals.exit_code(args.strict);
+    // Even a quiet run says why it does not end with 0.
+    if !args.quiet || code != DONE {
         screen.message(&totals.summary(start.elapsed()));
     }
-    totals.exit_code(args.strict)
+    code
 }
 
 /// Shows what is in all inputs; returns the exit code.
