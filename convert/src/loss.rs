@@ -217,7 +217,7 @@ impl Losses {
 pub fn losses_markdown() -> String {
     let mut out = String::from(
         "# What glTF cannot carry\n\n\
-         `ivconvert` reports each of these once, with the place of the first and a count.\n\n\
+         `ivconvert` reports each of these once, with the place of the first and a count. `ambient-light` and\n`one-sided-lighting`, which nearly every model has, stand in `--report` only and do not count under `--strict`.\n\n\
          | code | effect | what is lost | what is written instead |\n\
          | --- | --- | --- | --- |\n",
     );

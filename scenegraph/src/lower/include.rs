@@ -123,16 +123,17 @@ impl Builder<'_> {
         match found {
             Ok(root) => self.nodes[node.0 as usize].children = vec![root],
             Err(why) => {
-                // An inline of the web that brings its own stand-in is no loss.
-                let stand_in = self.nodes[node.0 as usize].class() == Some(Class::WWWInline);
-                let stand_in = if stand_in {
-                    self.nodes[node.0 as usize].node_field("alternateRep")
-                } else {
-                    None
-                };
+                // An inline that brings its own stand-in loses little.
+                let includer = &self.nodes[node.0 as usize];
+                let is_inline = includer.class() == Some(Class::WWWInline);
+                let stand_in = is_inline.then(|| includer.node_field("alternateRep"));
+                let stand_in = stand_in.flatten();
                 self.nodes[node.0 as usize].children = stand_in.into_iter().collect();
                 self.diagnostics.push(Diagnostic {
-                    severity: Severity::Error,
+                    severity: match stand_in {
+                        Some(_) => Severity::Warning,
+                        None => Severity::Error,
+                    },
                     code: "include",
                     message: format!("`{name}` is not included: {why}"),
                     hint: if name.contains("://") { String::new() } else { "it is looked for beside this file, then beside the first file, then in the --search folders".to_owned() },

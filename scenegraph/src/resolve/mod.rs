@@ -35,7 +35,7 @@ pub enum Geometry {
 /// Named limits: a small file can ask for any number of copies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResolveLimits {
-    /// Nodes visited, every occurrence counted; about a second of work.
+    /// Nodes visited, every occurrence counted; a few seconds of work.
     pub steps: usize,
     /// Nesting, sharing included.
     pub depth: usize,

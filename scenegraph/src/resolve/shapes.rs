@@ -46,20 +46,23 @@ impl Walk<'_> {
             shared: self.is_shared(id),
             fans: self.options.like_coin,
         };
+        let attributes = Attributes::of(&job);
         let builder = &mut self.builder;
         let made = match self.options.geometry {
             Geometry::Build => {
                 let limit = self.options.limits.geometry_bytes;
                 self.shapes
-                    .mesh(&job, &mut self.remarks, limit, |mesh| builder.mesh(mesh))
+                    .mesh(&job, &attributes, &mut self.remarks, limit, |mesh| {
+                        builder.mesh(mesh)
+                    })
             }
             Geometry::Measure => self
                 .shapes
-                .measure(&job, |measure| builder.measure(measure)),
+                .measure(&job, &attributes, |measure| builder.measure(measure)),
         };
         if let Some(made) = made {
             let placement = self.place(id);
-            let material = self.material(&job, &made);
+            let material = self.material(&job, &attributes, &made);
             let light_set = self.builder.light_set(state.lights).unwrap_or_else(|| {
                 self.remarks.warn(
                     "too-many-lights",
@@ -80,15 +83,19 @@ impl Walk<'_> {
         true
     }
 
-    fn material(&mut self, job: &Job<'_>, made: &Made) -> crate::scene::MaterialId {
-        let attributes = Attributes::of(job);
+    fn material(
+        &mut self,
+        job: &Job<'_>,
+        attributes: &Attributes<'_>,
+        made: &Made,
+    ) -> crate::scene::MaterialId {
         let state = job.state;
         let graph = self.graph;
         let node = state.material.node.map(|id| graph.node(id));
         let texture = if made.textured { state.texture } else { None };
         let texture = texture.map(|id| self.texture(id));
         let material = &state.material;
-        let is_primitive = is_closed(job.class, &attributes);
+        let is_primitive = is_closed(job.class, attributes);
         self.builder.material(Material {
             name: node.and_then(|n| n.name.clone()),
             ambient_srgb: unit_color(material.ambient),

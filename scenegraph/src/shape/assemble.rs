@@ -263,7 +263,8 @@ pub(super) fn coordinate(attributes: &Attributes<'_>, index: u32) -> DVec3 {
     .unwrap_or(DVec3::ZERO)
 }
 
-/// Whether the file gives a normal for every corner; if not they are all made, as Coin does.
+/// Whether the file gives a normal for every corner. If not, all are made for faces, as Coin does,
+/// and left out for lines and points.
 fn enough(
     attributes: &Attributes<'_>,
     corners: &Corners,
@@ -285,7 +286,7 @@ fn enough(
                 "{} has fewer normals than it uses",
                 attributes.node.class_name()
             ),
-            "normals were made from its faces",
+            "its own were not used",
             attributes.pos,
         );
     }

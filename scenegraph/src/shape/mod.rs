@@ -114,12 +114,12 @@ impl ShapeMaker {
     pub fn mesh(
         &mut self,
         job: &Job<'_>,
+        attributes: &Attributes<'_>,
         remarks: &mut Remarks,
         byte_limit: usize,
         keep: impl FnOnce(Mesh) -> MeshId,
     ) -> Option<Made> {
-        let attributes = Attributes::of(job);
-        let key = job.shared.then(|| Self::key(job, &attributes));
+        let key = job.shared.then(|| Self::key(job, attributes));
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
@@ -132,7 +132,7 @@ impl ShapeMaker {
             );
             None
         } else {
-            self.make(job, &attributes, remarks).map(|mesh| {
+            self.make(job, attributes, remarks).map(|mesh| {
                 self.bytes += 4 * mesh.indices.len() + 48 * mesh.positions.len();
                 Made {
                     lit: !mesh.normals.is_empty(),
@@ -146,13 +146,17 @@ impl ShapeMaker {
     }
 
     /// As [`Self::mesh`], without making it.
-    pub fn measure(&mut self, job: &Job<'_>, keep: impl FnOnce(Measure) -> MeshId) -> Option<Made> {
-        let attributes = Attributes::of(job);
-        let key = job.shared.then(|| Self::key(job, &attributes));
+    pub fn measure(
+        &mut self,
+        job: &Job<'_>,
+        attributes: &Attributes<'_>,
+        keep: impl FnOnce(Measure) -> MeshId,
+    ) -> Option<Made> {
+        let key = job.shared.then(|| Self::key(job, attributes));
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
-        let made = measure::measure(job, &attributes).map(|measure| Made {
+        let made = measure::measure(job, attributes).map(|measure| Made {
             lit: measure.topology == Topology::Triangles,
             textured: job.state.texture.is_some(),
             mesh: keep(measure),
