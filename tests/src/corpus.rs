@@ -1,6 +1,7 @@
 //! The corpus of real files beside the repository, and what Coin 4.0 makes of each.
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -72,7 +73,9 @@ pub fn folder() -> Option<PathBuf> {
     if folder.join("oracle.jsonl").is_file() {
         return Some(folder);
     }
-    eprintln!("SKIPPED: no corpus at {}", folder.display());
+    // Written past the test harness, which hides what passing tests print.
+    let line = format!("SKIPPED: no corpus at {}\n", folder.display());
+    let _ = io::stderr().write_all(line.as_bytes());
     None
 }
 
