@@ -1,0 +1,5 @@
+//! The renderer: a resolved scene in, an image out.
+//!
+//! It needs no window; the command and later the window are two callers of the same functions.
+
+pub mod volume;

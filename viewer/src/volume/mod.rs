@@ -1,0 +1,1 @@
+//! Shadow volumes on the CPU.
