@@ -15,6 +15,7 @@ use scenegraph::scene;
 const MAX_IMAGE_SIDE: u32 = 32_768;
 /// Most memory a decoder may take: a 16k x 8k RGBA image. A few bytes can claim far more.
 const MAX_DECODED_BYTES: u64 = 512 << 20;
+const UNKNOWN_FORMAT: &str = "neither the content nor the name tells a known image format";
 /// First bytes of SGI `.rgb`, `.rgba` and `.bw` files.
 const SGI_MAGIC: [u8; 2] = [0x01, 0xda];
 
@@ -52,7 +53,7 @@ impl Encoded {
     /// Takes a file's bytes; `name` only tells formats apart that have no signature.
     pub(crate) fn from_file(bytes: Vec<u8>, name: &str) -> Result<Self, String> {
         let Some(format) = sniff(&bytes, name) else {
-            return Err("neither the content nor the name tells a known image format".to_owned());
+            return Err(UNKNOWN_FORMAT.to_owned());
         };
         let (known, mime) = match format {
             Format::Known(known @ ImageFormat::Png) => (known, "image/png"),
@@ -76,34 +77,7 @@ impl Encoded {
 
     /// Takes an `SFImage`, whose rows go from bottom to top.
     pub(crate) fn from_inline(image: &scene::Image) -> Result<Self, String> {
-        let scene::Image {
-            width,
-            height,
-            components,
-            ref bytes,
-        } = *image;
-        let stride = u64::from(width) * u64::from(components);
-        let sound = (1..=4).contains(&components)
-            && stride > 0
-            && height > 0
-            && stride.checked_mul(u64::from(height)) == Some(bytes.len() as u64);
-        if !sound {
-            return Err(format!(
-                "{} bytes do not make {width} x {height} pixels of {components} components",
-                bytes.len()
-            ));
-        }
-        // The product above is the length of an array, so the stride fits.
-        let rows = bytes.chunks_exact(stride as usize).rev();
-        let top_down: Vec<u8> = rows.flatten().copied().collect();
-        let pixels = match components {
-            1 => GrayImage::from_raw(width, height, top_down).map(Into::into),
-            2 => GrayAlphaImage::from_raw(width, height, top_down).map(Into::into),
-            3 => RgbImage::from_raw(width, height, top_down).map(Into::into),
-            _ => RgbaImage::from_raw(width, height, top_down).map(Into::into),
-        };
-        let pixels: DynamicImage = pixels.ok_or("the pixels do not fill the image")?;
-        Self::from_pixels(&pixels)
+        Self::from_pixels(&inline_pixels(image)?)
     }
 
     /// A copy mixed with a colour; all of it display-referred, as Inventor mixes. The alpha
@@ -195,6 +169,45 @@ fn reader(bytes: &[u8], format: ImageFormat) -> ImageReader<Cursor<&[u8]>> {
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits());
     reader
+}
+
+/// The pixels of an image given in the model, rows from top to bottom.
+pub(crate) fn inline_pixels(image: &scene::Image) -> Result<DynamicImage, String> {
+    let scene::Image {
+        width,
+        height,
+        components,
+        ref bytes,
+    } = *image;
+    let stride = u64::from(width) * u64::from(components);
+    let sound = (1..=4).contains(&components)
+        && stride > 0
+        && height > 0
+        && stride.checked_mul(u64::from(height)) == Some(bytes.len() as u64);
+    if !sound {
+        return Err(format!(
+            "{} bytes do not make {width} x {height} pixels of {components} components",
+            bytes.len()
+        ));
+    }
+    // The product above is the length of an array, so the stride fits.
+    let rows = bytes.chunks_exact(stride as usize).rev();
+    let top_down: Vec<u8> = rows.flatten().copied().collect();
+    let pixels: Option<DynamicImage> = match components {
+        1 => GrayImage::from_raw(width, height, top_down).map(Into::into),
+        2 => GrayAlphaImage::from_raw(width, height, top_down).map(Into::into),
+        3 => RgbImage::from_raw(width, height, top_down).map(Into::into),
+        _ => RgbaImage::from_raw(width, height, top_down).map(Into::into),
+    };
+    pixels.ok_or_else(|| "the pixels do not fill the image".to_owned())
+}
+
+/// The pixels of a file; `name` only tells formats apart that have no signature.
+pub(crate) fn decode_file(bytes: &[u8], name: &str) -> Result<DynamicImage, String> {
+    match sniff(bytes, name) {
+        Some(format) => decode(bytes, format),
+        None => Err(UNKNOWN_FORMAT.to_owned()),
+    }
 }
 
 /// What an image says before its pixels.

@@ -2,4 +2,8 @@
 //!
 //! It needs no window; the command and later the window are two callers of the same functions.
 
+pub mod bounds;
+pub mod content;
+pub mod shader;
+pub mod texture;
 pub mod volume;

@@ -1,0 +1,11 @@
+//! A frame as data: which passes, what each draws, what was left out and why.
+//!
+//! Pure: what is here can be read by tests without a device. `gpu` encodes it.
+
+mod cull;
+mod plan;
+mod settings;
+
+pub use cull::Frustum;
+pub use plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason, VolumeDraw, plan};
+pub use settings::{Extraction, Settings, Shadows, VolumeMethod};

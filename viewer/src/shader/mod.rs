@@ -1,0 +1,13 @@
+//! Generated shaders: a key, its text, and the layout of the data both sides share.
+//!
+//! Pure: neither device nor cache. What is compiled, and how often, is the business of `gpu`.
+
+mod emit;
+mod key;
+mod layout;
+#[cfg(test)]
+mod tests;
+
+pub use emit::{TYPES, VOLUME, emit, emit_present};
+pub use key::{Contribution, LightForm, LightKey, Shade, ShaderKey, ShadowLookup};
+pub use layout::{Frame, Instance, Light, PassValues, Surface, layouts};
