@@ -1,5 +1,5 @@
 //! What tests and benchmarks over all crates share: measures of a scene, the corpus, inputs made to
-//! break, large ones, and what must hold for any input.
+//! break, large ones, what must hold for any input, what a picture must be, and scenes to draw.
 
 pub mod corpus;
 pub mod floats;
@@ -9,4 +9,6 @@ pub mod hostile;
 pub mod large;
 pub mod measure;
 pub mod mutate;
+pub mod reference;
 pub mod same_tree;
+pub mod shadow_scenes;

@@ -1,0 +1,149 @@
+//! All triangles of one kind (opaque or transparent) in the world, and what a ray meets of them.
+
+use glam::DVec3;
+
+use super::bvh::{Bounds, Bvh};
+use super::light::Source;
+use super::ray::{Crossing, Ray};
+
+/// A triangle with area.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// In the world, in the mesh's order.
+    pub corners: [DVec3; 3],
+    /// Index into the scene's instances.
+    pub instance: u32,
+    /// Its number in the mesh.
+    pub number: u32,
+    /// Not seen from the back; it casts shadows nevertheless.
+    pub front_only: bool,
+    /// The transform to the world turns the winding round.
+    pub mirrored: bool,
+}
+
+/// A crossing and what is crossed.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// Index into the triangles.
+    pub triangle: u32,
+    /// Where.
+    pub at: Crossing,
+    /// The ray comes from the front side.
+    pub is_front: bool,
+}
+
+impl Triangle {
+    /// Twice the area as a vector, counter-clockwise.
+    pub fn normal(&self) -> DVec3 {
+        let [a, b, c] = self.corners;
+        (b - a).cross(c - a)
+    }
+
+    /// Whether a ray along `direction` meets the front side first. The front is counter-clockwise
+    /// in the local frame, so a mirroring transform turns the winding seen.
+    pub fn is_front(&self, direction: DVec3) -> bool {
+        (self.normal().dot(direction) < 0.0) != self.mirrored
+    }
+
+    /// The point with these weights of the corners.
+    pub fn point(&self, weights: [f64; 3]) -> DVec3 {
+        let [a, b, c] = self.corners;
+        a * weights[0] + b * weights[1] + c * weights[2]
+    }
+
+    /// On which side of the triangle's plane the light is: 1 on the side of [`Self::normal`], -1 on
+    /// the other, 0 if that cannot be told when each coordinate is uncertain by `unit`.
+    ///
+    /// The sign is that of the product of the two edges `e`, `f` and the vector `l` to the light.
+    /// Moving each end by `unit` changes it by at most `unit (|e| + |f|) |l|` and, for a light at a
+    /// point, which moves too, `unit |e x f|`, times 2 as a vector has two ends.
+    pub fn side_of(&self, source: Source, unit: f64) -> i8 {
+        let [a, b, c] = self.corners;
+        let normal = self.normal();
+        let (l, own) = match source {
+            Source::Direction(l) => (l, 0.0),
+            Source::Point(p) => (p - a, normal.length()),
+        };
+        let reach = (b - a).length() + (c - a).length();
+        let doubt = 2.0 * unit * (reach * l.length() + own);
+        let volume = normal.dot(l);
+        i8::from(volume > doubt) - i8::from(volume < -doubt)
+    }
+}
+
+/// Triangles and the boxes around them.
+pub struct Solid {
+    /// By instance, then by number.
+    pub triangles: Vec<Triangle>,
+    boxes: Bvh,
+}
+
+impl Solid {
+    /// Over `triangles`.
+    pub fn new(triangles: Vec<Triangle>) -> Self {
+        let bounds = |triangle: &Triangle| {
+            let mut bounds = Bounds::EMPTY;
+            triangle.corners.iter().for_each(|&p| bounds.add(p));
+            bounds
+        };
+        let boxes = Bvh::new(&triangles.iter().map(bounds).collect::<Vec<_>>());
+        Self { triangles, boxes }
+    }
+
+    /// What is seen along the ray: the nearest hit, of equally near ones that of the first triangle.
+    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        self.boxes.walk(ray, f64::INFINITY, |i, t_max| {
+            if let Some(hit) = self.seen(i, ray) {
+                let key = |hit: &Hit| (hit.at.t, hit.triangle);
+                if best.as_ref().is_none_or(|best| key(&hit) < key(best)) {
+                    *t_max = hit.at.t;
+                    best = Some(hit);
+                }
+            }
+            true
+        });
+        best
+    }
+
+    /// All that is seen along the ray before `t_max`, in order of the triangles.
+    pub fn all_before(&self, ray: &Ray, t_max: f64) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        self.boxes.walk(ray, t_max, |i, _| {
+            hits.extend(self.seen(i, ray).filter(|hit| hit.at.t < t_max));
+            true
+        });
+        hits.sort_by_key(|hit| hit.triangle);
+        hits
+    }
+
+    /// Whether something stands between `from` and the light. A triangle in whose plane the light
+    /// lies (within `unit`, see [`Triangle::side_of`]) does not stand between.
+    pub fn is_between(&self, from: DVec3, source: Source, unit: f64) -> bool {
+        let (direction, t_max) = match source {
+            Source::Direction(direction) => (direction, f64::INFINITY),
+            Source::Point(p) => (p - from, 1.0),
+        };
+        let ray = Ray::new(from, direction);
+        let mut found = false;
+        self.boxes.walk(&ray, t_max, |i, _| {
+            let triangle = &self.triangles[i as usize];
+            found = ray.cross(&triangle.corners).is_some_and(|at| {
+                at.t > 0.0 && at.t < t_max && triangle.side_of(source, unit) != 0
+            });
+            !found
+        });
+        found
+    }
+
+    fn seen(&self, i: u32, ray: &Ray) -> Option<Hit> {
+        let triangle = &self.triangles[i as usize];
+        let at = ray.cross(&triangle.corners).filter(|at| at.t > 0.0)?;
+        let is_front = triangle.is_front(ray.direction);
+        (is_front || !triangle.front_only).then_some(Hit {
+            triangle: i,
+            at,
+            is_front,
+        })
+    }
+}
