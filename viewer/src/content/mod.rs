@@ -16,6 +16,7 @@ pub use lights::{LightShape, WorldLight, world_lights};
 pub use look::{FogUse, Look, Primitive, TextureUse, TextureUseModel};
 pub use surface::{Surface, SurfaceFog};
 
+use crate::bounds::SceneBounds;
 use crate::texture::Images;
 
 /// One thing to draw.
@@ -68,7 +69,7 @@ pub struct Content {
 impl Content {
     /// Arranges `scene`. `images` says which textures exist and have alpha.
     pub fn new(scene: &Scene, images: &Images) -> Self {
-        let boxes = crate::bounds::instance_boxes(scene);
+        let boxes = SceneBounds::new(scene).instances;
         let mut surfaces = surface::Surfaces::default();
         let mut content = Self {
             lights: world_lights(scene),

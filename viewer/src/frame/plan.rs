@@ -11,7 +11,7 @@ use glam::DVec3;
 
 use super::cull::{self, Frustum};
 use super::settings::{Settings, Shadows};
-use crate::content::{Content, LightShape, Object, Primitive, WorldLight};
+use crate::content::{Content, LightShape, Object, WorldLight};
 use crate::shader::{Contribution, LightKey, ShaderKey, ShadowLookup};
 use crate::view::{Lens, Region, View};
 use crate::volume::{volume_may_touch, zpass_is_safe};
@@ -556,9 +556,4 @@ impl Counts {
             .map(|(reason, count)| Skip { reason, count })
             .collect()
     }
-}
-
-/// Whether an object is drawn as strokes, not as triangles.
-pub fn is_stroke(object: &Object) -> bool {
-    object.look.primitive != Primitive::Triangles
 }

@@ -206,15 +206,13 @@ pub fn frame(
     let view_from_rel = DMat4::from_quat(view.orientation.conjugate());
     let is_parallel = matches!(view.lens, Lens::Orthographic { .. });
     let (width, height) = (width as f32, height as f32);
-    Frame {
+    shader::Frame {
         clip_from_rel: (clip_from_view * view_from_rel).as_mat4().to_cols_array_2d(),
         view_axis: xyzw(view.forward(), if is_parallel { 1.0 } else { 0.0 }),
         viewport: [width, height, 1.0 / width, 1.0 / height],
         eye_in_rays: xyzw(view.eye - rays_origin, 0.0),
     }
 }
-
-use shader::Frame;
 
 fn xyzw(v: DVec3, w: f64) -> [f32; 4] {
     v.extend(w).as_vec4().to_array()

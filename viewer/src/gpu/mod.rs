@@ -12,4 +12,4 @@ mod textures;
 mod volumes;
 
 pub use device::{AdapterChoice, Gpu, GpuError};
-pub use encode::Renderer;
+pub use encode::{FrameReport, PassReport, Renderer};

@@ -13,6 +13,9 @@ pub const TYPES: &str = include_str!("wgsl/types.wgsl");
 /// Shadow volumes; stands behind [`TYPES`].
 pub const VOLUME: &str = include_str!("wgsl/volume.wgsl");
 
+/// A gradient behind everything.
+pub const BACKGROUND: &str = include_str!("wgsl/background.wgsl");
+
 /// The text of a surface shader; its entry points are `place` and `shade`.
 pub fn emit(key: &ShaderKey) -> String {
     let mut text = String::from(TYPES);

@@ -1,0 +1,671 @@
+//! From a plan to commands. Decides nothing: what is drawn, and in which order, is in the plan.
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use scenegraph::scene::Scene;
+
+use super::binding::{self, Layouts};
+use super::device::{Gpu, GpuError};
+use super::frame_data::{self, FrameData, PASS_STRIDE};
+use super::geometry::{Geometry, MeshRange, TriangleRange};
+use super::pipelines::{Cull, PipelineCounts, PipelineKey, Pipelines, Stage, VolumePart};
+use super::readback;
+use super::targets::Targets;
+use super::textures::Textures;
+use super::volumes::{Casters, VolumeCache, VolumeRanges};
+use crate::content::{Content, LightShape, Object, Primitive};
+use crate::frame::{self, Pass, PassKind, Plan, Settings, Shadows};
+use crate::texture::Images;
+use crate::view::{DepthRange, Region, View};
+
+/// What a frame took.
+#[derive(Clone, Debug, Default)]
+pub struct FrameReport {
+    /// Planning.
+    pub plan: Duration,
+    /// Making shadow volumes.
+    pub volumes: Duration,
+    /// Writing numbers and recording commands.
+    pub encode: Duration,
+    /// Waiting for the device.
+    pub draw: Duration,
+    /// Shaders, pipelines and hits of this frame alone.
+    pub pipelines: PipelineCounts,
+    /// Lights whose volumes were made anew, and kept.
+    pub volumes_made: u32,
+    /// Lights whose volumes were kept.
+    pub volumes_kept: u32,
+    /// For each pass of the plan: draw calls, and primitives drawn.
+    pub passes: Vec<PassReport>,
+}
+
+/// What a pass drew.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PassReport {
+    /// Draw calls.
+    pub draw_calls: u64,
+    /// Triangles, segments and points; sides count as two triangles.
+    pub primitives: u64,
+}
+
+/// A scene on the device, ready to be drawn from any view.
+pub struct Renderer {
+    /// The device.
+    pub gpu: Gpu,
+    layouts: Layouts,
+    pipelines: Pipelines,
+    frame_data: FrameData,
+    targets: Option<Targets>,
+    content: Content,
+    geometry: Geometry,
+    textures: Textures,
+    strokes: [wgpu::BindGroup; 2],
+    casters: Option<Casters>,
+    volumes: VolumeCache,
+    scene: std::sync::Arc<Scene>,
+    /// Time taken to upload the scene.
+    pub upload_time: Duration,
+}
+
+impl Renderer {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::Device`] if it does not fit.
+    pub fn new(gpu: Gpu, scene: std::sync::Arc<Scene>, images: &Images) -> Result<Self, GpuError> {
+        let start = Instant::now();
+        let layouts = Layouts::new(&gpu.device);
+        let frame_data = FrameData::new(&gpu, &layouts);
+        let content = Content::new(&scene, images);
+        let geometry = Geometry::upload(&gpu.device, &scene, &content);
+        let textures = Textures::upload(&gpu, &layouts, &scene, &content, images);
+        let strokes = [&geometry.line_ends, &geometry.points].map(|buffer| {
+            binding::group(
+                &gpu.device,
+                "strokes",
+                &layouts.strokes,
+                vec![buffer.as_entire_binding()],
+            )
+        });
+        gpu.check()?;
+        Ok(Self {
+            gpu,
+            layouts,
+            pipelines: Pipelines::default(),
+            frame_data,
+            targets: None,
+            content,
+            geometry,
+            textures,
+            strokes,
+            casters: None,
+            volumes: VolumeCache::default(),
+            scene,
+            upload_time: start.elapsed(),
+        })
+    }
+
+    /// The scene as it is drawn.
+    pub fn content(&self) -> &Content {
+        &self.content
+    }
+
+    /// Bytes on the device: meshes, textures, casters, images of the frame.
+    pub fn bytes(&self) -> [u64; 4] {
+        [
+            self.geometry.bytes,
+            self.textures.bytes,
+            self.casters.as_ref().map_or(0, |casters| casters.bytes),
+            self.targets.as_ref().map_or(0, |targets| targets.bytes),
+        ]
+    }
+
+    /// Images on the device.
+    pub fn texture_count(&self) -> usize {
+        self.textures.len()
+    }
+
+    /// Surface shaders that sample a texture.
+    pub fn textured_shaders(&self) -> usize {
+        self.pipelines.textured_shaders()
+    }
+
+    /// Draws a view into an image of this size, and waits until it is there.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::Device`] if the device refuses something or is lost.
+    pub fn draw(
+        &mut self,
+        view: &View,
+        region: &Region,
+        (width, height): (u32, u32),
+        settings: &Settings,
+    ) -> Result<(Plan, FrameReport), GpuError> {
+        let mut report = FrameReport::default();
+        let start = Instant::now();
+        let boxes: Vec<_> = self.content.objects.iter().map(|o| o.bounds).collect();
+        let range = DepthRange::of(view, region.aspect, &boxes);
+        let plan = frame::plan(&self.content, view, region, range.near, settings);
+        report.plan = start.elapsed();
+
+        let start = Instant::now();
+        let (made, kept, time) = (self.volumes.made, self.volumes.kept, self.volumes.time);
+        self.prepare_volumes(&plan, settings);
+        report.volumes = start.elapsed();
+        report.volumes_made = self.volumes.made - made;
+        report.volumes_kept = self.volumes.kept - kept;
+        let _ = time;
+
+        let start = Instant::now();
+        let before = self.pipelines.counts;
+        self.fit_targets(width, height, settings.samples);
+        self.prepare_pipelines(&plan, settings);
+        report.pipelines = difference(self.pipelines.counts, before);
+        let numbers = frame_data::frame(
+            view,
+            view.clip_from_view(region.aspect, range),
+            (region.width, region.height),
+            view.eye,
+        );
+        self.frame_data.write(
+            &self.gpu,
+            &self.layouts,
+            &self.content,
+            &plan,
+            &numbers,
+            view,
+        );
+        let commands = self.record(&plan, region, settings, &mut report);
+        self.gpu.queue.submit([commands]);
+        report.encode = start.elapsed();
+
+        let start = Instant::now();
+        self.gpu
+            .device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| GpuError::Device(error.to_string()))?;
+        report.draw = start.elapsed();
+        self.gpu.check()?;
+        Ok((plan, report))
+    }
+
+    /// The image of the last frame: RGBA, rows from top to bottom.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::Device`] if nothing was drawn yet or the device refuses.
+    pub fn read(&self) -> Result<Vec<u8>, GpuError> {
+        match &self.targets {
+            Some(targets) => readback::read(&self.gpu, targets),
+            None => Err(GpuError::Device("nothing was drawn".to_owned())),
+        }
+    }
+
+    fn fit_targets(&mut self, width: u32, height: u32, samples: u32) {
+        let fits = self.targets.as_ref().is_some_and(|targets| {
+            (targets.width, targets.height, targets.samples) == (width, height, samples)
+        });
+        if !fits {
+            self.targets = Some(Targets::new(&self.gpu, width, height, samples));
+        }
+    }
+
+    fn prepare_volumes(&mut self, plan: &Plan, settings: &Settings) {
+        let Shadows::Volumes { method, .. } = settings.shadows else {
+            return;
+        };
+        for pass in &plan.passes {
+            let PassKind::Volumes { light } = pass.kind else {
+                continue;
+            };
+            let casters = self
+                .casters
+                .get_or_insert_with(|| Casters::upload(&self.gpu, &self.scene, &self.content));
+            self.volumes.prepare(
+                &self.gpu,
+                &self.layouts,
+                &self.content,
+                casters,
+                light,
+                &plan.lights[light as usize],
+                method,
+            );
+        }
+    }
+
+    fn prepare_pipelines(&mut self, plan: &Plan, settings: &Settings) {
+        let samples = settings.samples;
+        let mut keys = vec![PipelineKey::Present { samples }];
+        if settings.background_srgb[0] != settings.background_srgb[1] {
+            keys.push(PipelineKey::Background { samples });
+        }
+        for pass in &plan.passes {
+            for draw in &pass.draws {
+                let object = &self.content.objects[draw.objects.start as usize];
+                for &cull in culls(pass, object) {
+                    keys.push(surface_key(pass, object, draw, cull, samples));
+                }
+            }
+            for part in volume_parts(pass, plan) {
+                keys.push(self.volume_key(part, samples));
+            }
+        }
+        for key in keys {
+            self.pipelines.prepare(&self.gpu, &self.layouts, key);
+        }
+    }
+
+    fn volume_key(&self, part: VolumePart, samples: u32) -> PipelineKey {
+        PipelineKey::Volume {
+            part,
+            is_unclipped: part == VolumePart::ZPassSides && self.gpu.has_depth_clip_control,
+            samples,
+        }
+    }
+
+    fn record(
+        &self,
+        plan: &Plan,
+        region: &Region,
+        settings: &Settings,
+        report: &mut FrameReport,
+    ) -> wgpu::CommandBuffer {
+        let mut encoder = self
+            .gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        if let Some(targets) = &self.targets {
+            let recorder = Recorder {
+                renderer: self,
+                targets,
+                region,
+                settings,
+                plan,
+            };
+            recorder.background(&mut encoder);
+            for pass in &plan.passes {
+                report.passes.push(recorder.pass(&mut encoder, pass));
+            }
+            recorder.present(&mut encoder);
+        }
+        encoder.finish()
+    }
+}
+
+fn difference(now: PipelineCounts, before: PipelineCounts) -> PipelineCounts {
+    PipelineCounts {
+        shaders: now.shaders - before.shaders,
+        pipelines: now.pipelines - before.pipelines,
+        hits: now.hits - before.hits,
+        time: now.time.saturating_sub(before.time),
+    }
+}
+
+/// The times an object is drawn in a pass, by the faces left out: a transparent one is drawn back
+/// faces first.
+fn culls(pass: &Pass, object: &Object) -> &'static [Cull] {
+    let is_stroke = object.look.primitive != Primitive::Triangles;
+    match (object.is_culled, pass.kind) {
+        (true, _) => &[Cull::Back],
+        (false, PassKind::Transparent) if !is_stroke => &[Cull::Front, Cull::Back],
+        _ => &[Cull::None],
+    }
+}
+
+fn surface_key(
+    pass: &Pass,
+    object: &Object,
+    draw: &frame::Draw,
+    cull: Cull,
+    samples: u32,
+) -> PipelineKey {
+    let stage = match pass.kind {
+        PassKind::Light { tests_stencil, .. } => Stage::Add { tests_stencil },
+        PassKind::Transparent => Stage::Blend,
+        _ => Stage::First,
+    };
+    let is_stroke = object.look.primitive != Primitive::Triangles;
+    PipelineKey::Surface {
+        shader: draw.shader,
+        stage,
+        cull,
+        is_mirrored: object.is_mirrored && !is_stroke,
+        samples,
+    }
+}
+
+/// The parts of volumes that a pass draws. A directional light needs no dark caps: at infinity
+/// they are one point.
+fn volume_parts(pass: &Pass, plan: &Plan) -> Vec<VolumePart> {
+    let PassKind::Volumes { light } = pass.kind else {
+        return Vec::new();
+    };
+    let mut parts = Vec::new();
+    if pass.volumes.iter().any(|volume| volume.is_z_pass) {
+        parts.push(VolumePart::ZPassSides);
+    }
+    if pass.volumes.iter().any(|volume| !volume.is_z_pass) {
+        parts.push(VolumePart::ZFailSides);
+        parts.extend([true, false].map(|is_pos| VolumePart::LightCap { is_pos }));
+        let shape = &plan.lights[light as usize].shape;
+        if !matches!(shape, LightShape::Directional { .. }) {
+            parts.extend([true, false].map(|is_pos| VolumePart::DarkCap { is_pos }));
+        }
+    }
+    parts
+}
+
+/// What recording a frame needs.
+struct Recorder<'a> {
+    renderer: &'a Renderer,
+    targets: &'a Targets,
+    region: &'a Region,
+    settings: &'a Settings,
+    plan: &'a Plan,
+}
+
+/// What is bound already, so that it is not bound again.
+#[derive(Default)]
+struct Bound {
+    pipeline: Option<PipelineKey>,
+    buffers: Option<(usize, [bool; 3])>,
+    texture: Option<scenegraph::scene::TextureId>,
+    strokes: Option<Primitive>,
+}
+
+const WHOLE: Range<u32> = 0..3;
+
+impl Recorder<'_> {
+    fn background(&self, encoder: &mut wgpu::CommandEncoder) {
+        let [top, bottom] = self.settings.background_srgb;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("background"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.targets.color,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color {
+                        r: bottom[0],
+                        g: bottom[1],
+                        b: bottom[2],
+                        a: 1.0,
+                    }),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        if top == bottom {
+            return;
+        }
+        let key = PipelineKey::Background {
+            samples: self.targets.samples,
+        };
+        let Some(pipeline) = self.renderer.pipelines.get(&key) else {
+            return;
+        };
+        let mut colors = [[1.0_f32; 4]; 2];
+        for (to, from) in colors.iter_mut().zip([top, bottom]) {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = from as f32;
+            }
+        }
+        let device = &self.renderer.gpu.device;
+        use wgpu::util::DeviceExt;
+        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("gradient"),
+            contents: bytemuck::cast_slice(&colors),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let group = binding::group(
+            device,
+            "gradient",
+            &pipeline.get_bind_group_layout(0),
+            vec![buffer.as_entire_binding()],
+        );
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(WHOLE, 0..1);
+    }
+
+    fn present(&self, encoder: &mut wgpu::CommandEncoder) {
+        let key = PipelineKey::Present {
+            samples: self.targets.samples,
+        };
+        let Some(pipeline) = self.renderer.pipelines.get(&key) else {
+            return;
+        };
+        let group = binding::group(
+            &self.renderer.gpu.device,
+            "present",
+            &pipeline.get_bind_group_layout(0),
+            vec![wgpu::BindingResource::TextureView(&self.targets.color)],
+        );
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("present"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.targets.output_view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(WHOLE, 0..1);
+    }
+
+    fn pass(&self, encoder: &mut wgpu::CommandEncoder, pass: &Pass) -> PassReport {
+        match pass.kind {
+            PassKind::Volumes { light } => self.volumes(encoder, pass, light),
+            PassKind::Map { .. } | PassKind::Rays { .. } => PassReport::default(),
+            PassKind::First { light } => self.surfaces(encoder, pass, light.unwrap_or(0), true),
+            PassKind::Light { light, .. } => self.surfaces(encoder, pass, light, false),
+            PassKind::Transparent => self.surfaces(encoder, pass, 0, false),
+        }
+    }
+
+    fn begin<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        label: &str,
+        has_color: bool,
+        depth: Option<wgpu::Operations<f32>>,
+        stencil: Option<wgpu::Operations<u32>>,
+        light: u32,
+    ) -> wgpu::RenderPass<'e> {
+        let color = wgpu::RenderPassColorAttachment {
+            view: &self.targets.color,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Load,
+                store: wgpu::StoreOp::Store,
+            },
+        };
+        let attachments = [Some(color)];
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(label),
+            color_attachments: if has_color { &attachments } else { &[] },
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.targets.depth,
+                depth_ops: depth,
+                stencil_ops: stencil,
+            }),
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        let r = self.region;
+        pass.set_viewport(
+            r.x as f32,
+            r.y as f32,
+            r.width as f32,
+            r.height as f32,
+            0.0,
+            1.0,
+        );
+        pass.set_scissor_rect(r.x, r.y, r.width, r.height);
+        pass.set_bind_group(0, &self.renderer.frame_data.scene_group, &[]);
+        pass.set_bind_group(1, &self.renderer.frame_data.pass_group, &[light * PASS_STRIDE]);
+        pass
+    }
+
+    fn surfaces(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pass: &Pass,
+        light: u32,
+        clears: bool,
+    ) -> PassReport {
+        let store = wgpu::StoreOp::Store;
+        let depth = clears.then_some(wgpu::Operations {
+            load: wgpu::LoadOp::Clear(0.0),
+            store,
+        });
+        let stencil = clears.then_some(wgpu::Operations {
+            load: wgpu::LoadOp::Clear(0),
+            store,
+        });
+        let mut render_pass = self.begin(encoder, "surfaces", true, depth, stencil, light);
+        let mut bound = Bound::default();
+        let mut report = PassReport::default();
+        if let Some([x, y, width, height]) = pass.scissor {
+            render_pass.set_scissor_rect(x, y, width, height);
+        }
+        for draw in &pass.draws {
+            let object = &self.renderer.content.objects[draw.objects.start as usize];
+            let Some(range) = self.renderer.geometry.range(object.mesh) else {
+                continue;
+            };
+            for &cull in culls(pass, object) {
+                let key = surface_key(pass, object, draw, cull, self.targets.samples);
+                if !self.bind(&mut render_pass, &mut bound, key) {
+                    continue;
+                }
+                let primitives = match range {
+                    MeshRange::Triangles(range) => {
+                        self.bind_triangles(&mut render_pass, &mut bound, draw, object, &range);
+                        let end = range.first_index + range.index_count;
+                        render_pass.draw_indexed(
+                            range.first_index..end,
+                            range.base_vertex,
+                            draw.objects.clone(),
+                        );
+                        range.index_count / 3
+                    }
+                    MeshRange::Strokes { first, count } => {
+                        let primitive = object.look.primitive;
+                        if bound.strokes != Some(primitive) {
+                            let at = usize::from(primitive == Primitive::Points);
+                            render_pass.set_bind_group(2, &self.renderer.strokes[at], &[]);
+                            bound.strokes = Some(primitive);
+                            bound.texture = None;
+                        }
+                        render_pass.draw(6 * first..6 * (first + count), draw.objects.clone());
+                        count
+                    }
+                };
+                report.draw_calls += 1;
+                report.primitives += u64::from(primitives) * draw.objects.len() as u64;
+            }
+        }
+        report
+    }
+
+    /// False if there is no such pipeline.
+    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, bound: &mut Bound, key: PipelineKey) -> bool {
+        if bound.pipeline == Some(key) {
+            return true;
+        }
+        let Some(pipeline) = self.renderer.pipelines.get(&key) else {
+            return false;
+        };
+        pass.set_pipeline(pipeline);
+        bound.pipeline = Some(key);
+        true
+    }
+
+    fn bind_triangles(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        bound: &mut Bound,
+        draw: &frame::Draw,
+        object: &Object,
+        range: &TriangleRange,
+    ) {
+        let shader = &draw.shader;
+        let wanted = [
+            shader.has_normals(),
+            shader.texture.is_some(),
+            shader.has_colors,
+        ];
+        if bound.buffers != Some((range.group, wanted)) {
+            let group = &self.renderer.geometry.groups[range.group];
+            pass.set_vertex_buffer(0, group.positions.slice(..));
+            let optional = [&group.normals, &group.texcoords, &group.colors];
+            for ((slot, buffer), wanted) in (1..).zip(optional).zip(wanted) {
+                if let Some(buffer) = buffer.as_ref().filter(|_| wanted) {
+                    pass.set_vertex_buffer(slot, buffer.slice(..));
+                }
+            }
+            pass.set_index_buffer(group.indices.slice(..), wgpu::IndexFormat::Uint32);
+            bound.buffers = Some((range.group, wanted));
+        }
+        if let Some(id) = object.texture
+            && bound.texture != Some(id)
+            && let Some(group) = self.renderer.textures.group(id)
+        {
+            pass.set_bind_group(2, group, &[]);
+            bound.texture = Some(id);
+            bound.strokes = None;
+        }
+    }
+
+    fn volumes(&self, encoder: &mut wgpu::CommandEncoder, pass: &Pass, light: u32) -> PassReport {
+        let Some(volumes) = self.renderer.volumes.of(light) else {
+            return PassReport::default();
+        };
+        let stencil = Some(wgpu::Operations {
+            load: wgpu::LoadOp::Clear(0),
+            store: wgpu::StoreOp::Store,
+        });
+        let mut render_pass = self.begin(encoder, "volumes", false, None, stencil, light);
+        render_pass.set_bind_group(2, &volumes.group, &[]);
+        let ranges = volumes.ranges(&pass.volumes);
+        let mut report = PassReport::default();
+        for part in volume_parts(pass, self.plan) {
+            let (list, corners) = part_ranges(&ranges, part);
+            let key = self.renderer.volume_key(part, self.targets.samples);
+            let Some(pipeline) = self.renderer.pipelines.get(&key) else {
+                continue;
+            };
+            render_pass.set_pipeline(pipeline);
+            for range in list {
+                render_pass.draw(range.start * corners..range.end * corners, 0..1);
+                report.draw_calls += 1;
+                report.primitives += u64::from(corners / 3) * range.len() as u64;
+            }
+        }
+        report
+    }
+}
+
+fn part_ranges(ranges: &VolumeRanges, part: VolumePart) -> (&[Range<u32>], u32) {
+    match part {
+        VolumePart::ZPassSides => (&ranges.z_pass_sides, 6),
+        VolumePart::ZFailSides => (&ranges.z_fail_sides, 6),
+        VolumePart::LightCap { is_pos: true } | VolumePart::DarkCap { is_pos: true } => {
+            (&ranges.cap_pos, 3)
+        }
+        VolumePart::LightCap { is_pos: false } | VolumePart::DarkCap { is_pos: false } => {
+            (&ranges.cap_neg, 3)
+        }
+    }
+}

@@ -1,0 +1,464 @@
+//! Pipelines, made when first needed and kept. The caches are keyed by everything that a pipeline
+//! depends on, so a second frame of the same scene makes none.
+
+use std::collections::hash_map::Entry;
+use std::time::{Duration, Instant};
+
+use rustc_hash::FxHashMap;
+
+use super::binding::Layouts;
+use super::device::Gpu;
+use super::targets::{COLOR_FORMAT, DEPTH_FORMAT, OUTPUT_FORMAT};
+use crate::content::Primitive;
+use crate::shader::{self, ShaderKey, ShadowLookup};
+
+/// How a surface shader is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Nearest wins, depth is written.
+    First,
+    /// Added where the depth is equal.
+    Add {
+        /// And where the stencil is zero.
+        tests_stencil: bool,
+    },
+    /// Blended over what is there.
+    Blend,
+}
+
+/// Which faces are left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Cull {
+    /// None.
+    None,
+    /// Back faces.
+    Back,
+    /// Front faces.
+    Front,
+}
+
+/// A part of shadow volumes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum VolumePart {
+    /// Sides counted in front of the scene.
+    ZPassSides,
+    /// Sides counted behind it.
+    ZFailSides,
+    /// Triangles that face the light, or away from it.
+    LightCap {
+        /// They face it.
+        is_pos: bool,
+    },
+    /// The same at infinity.
+    DarkCap {
+        /// They face it.
+        is_pos: bool,
+    },
+}
+
+/// Everything a pipeline depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PipelineKey {
+    /// Draws objects.
+    Surface {
+        /// By this shader.
+        shader: ShaderKey,
+        /// In this stage.
+        stage: Stage,
+        /// Without these faces.
+        cull: Cull,
+        /// Front is clockwise.
+        is_mirrored: bool,
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Counts shadow volumes.
+    Volume {
+        /// This part.
+        part: VolumePart,
+        /// The near plane cuts nothing.
+        is_unclipped: bool,
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Draws the gradient.
+    Background {
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Turns summed light into the image.
+    Present {
+        /// Samples a pixel of the light.
+        samples: u32,
+    },
+}
+
+/// What making pipelines took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PipelineCounts {
+    /// Shader texts compiled.
+    pub shaders: u32,
+    /// Pipelines made.
+    pub pipelines: u32,
+    /// Times a pipeline was asked for and there.
+    pub hits: u32,
+    /// Time taken.
+    pub time: Duration,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum ModuleKey {
+    Surface(ShaderKey),
+    Volume,
+    Background,
+    Present(u32),
+}
+
+/// The caches.
+#[derive(Default)]
+pub struct Pipelines {
+    modules: FxHashMap<ModuleKey, wgpu::ShaderModule>,
+    pipelines: FxHashMap<PipelineKey, wgpu::RenderPipeline>,
+    /// Since the beginning.
+    pub counts: PipelineCounts,
+}
+
+impl Pipelines {
+    /// Makes a pipeline unless it is there.
+    pub fn prepare(&mut self, gpu: &Gpu, layouts: &Layouts, key: PipelineKey) {
+        if self.pipelines.contains_key(&key) {
+            self.counts.hits += 1;
+            return;
+        }
+        let start = Instant::now();
+        let module_key = match key {
+            PipelineKey::Surface { shader, .. } => ModuleKey::Surface(shader),
+            PipelineKey::Volume { .. } => ModuleKey::Volume,
+            PipelineKey::Background { .. } => ModuleKey::Background,
+            PipelineKey::Present { samples } => ModuleKey::Present(samples),
+        };
+        let module = match self.modules.entry(module_key) {
+            Entry::Occupied(there) => there.into_mut(),
+            Entry::Vacant(place) => {
+                self.counts.shaders += 1;
+                place.insert(module(gpu, module_key))
+            }
+        };
+        let pipeline = match key {
+            PipelineKey::Surface { .. } => surface(gpu, layouts, module, key),
+            PipelineKey::Volume { .. } => volume(gpu, layouts, module, key),
+            PipelineKey::Background { .. } | PipelineKey::Present { .. } => {
+                whole_image(gpu, module, key)
+            }
+        };
+        self.counts.pipelines += 1;
+        self.counts.time += start.elapsed();
+        self.pipelines.insert(key, pipeline);
+    }
+
+    /// A pipeline that was prepared.
+    pub fn get(&self, key: &PipelineKey) -> Option<&wgpu::RenderPipeline> {
+        self.pipelines.get(key)
+    }
+
+    /// How many surface shaders sample a texture.
+    pub fn textured_shaders(&self) -> usize {
+        self.modules
+            .keys()
+            .filter(|key| matches!(key, ModuleKey::Surface(shader) if shader.texture.is_some()))
+            .count()
+    }
+}
+
+fn module(gpu: &Gpu, key: ModuleKey) -> wgpu::ShaderModule {
+    let text = match key {
+        ModuleKey::Surface(shader) => shader::emit(&shader),
+        ModuleKey::Volume => format!("{}{}", shader::TYPES, shader::VOLUME),
+        ModuleKey::Background => shader::BACKGROUND.to_owned(),
+        ModuleKey::Present(samples) => shader::emit_present(samples),
+    };
+    gpu.device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("generated"),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
+        })
+}
+
+fn vertex_buffers(shader: &ShaderKey) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+    const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
+    const NORMAL: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![1 => Float32x3];
+    const TEXCOORD: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![2 => Float32x2];
+    const COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![3 => Float32x4];
+    if shader.primitive != Primitive::Triangles {
+        return Vec::new();
+    }
+    let buffer = |attributes, array_stride| wgpu::VertexBufferLayout {
+        array_stride,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes,
+    };
+    vec![
+        Some(buffer(&POSITION[..], 12)),
+        shader.has_normals().then(|| buffer(&NORMAL[..], 12)),
+        shader.texture.map(|_| buffer(&TEXCOORD[..], 8)),
+        shader.has_colors.then(|| buffer(&COLOR[..], 16)),
+    ]
+}
+
+fn surface(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    module: &wgpu::ShaderModule,
+    key: PipelineKey,
+) -> wgpu::RenderPipeline {
+    let PipelineKey::Surface {
+        shader,
+        stage,
+        cull,
+        is_mirrored,
+        samples,
+    } = key
+    else {
+        unreachable!("asked for a surface")
+    };
+    let group_2 = match (shader.primitive, shader.texture) {
+        (Primitive::Triangles, None) => None,
+        (Primitive::Triangles, Some(_)) => Some(&layouts.image),
+        _ => Some(&layouts.strokes),
+    };
+    let group_3 = match shader.light().map(|light| light.shadow) {
+        Some(ShadowLookup::Map | ShadowLookup::CubeMap) => Some(&layouts.shadow_map),
+        Some(ShadowLookup::Mask) => Some(&layouts.shadow_mask),
+        _ => None,
+    };
+    let layout = pipeline_layout(
+        gpu,
+        &[Some(&layouts.scene), Some(&layouts.pass), group_2, group_3],
+    );
+    let one = wgpu::BlendFactor::One;
+    let add = wgpu::BlendOperation::Add;
+    let over = |src_factor, dst_factor| wgpu::BlendComponent {
+        src_factor,
+        dst_factor,
+        operation: add,
+    };
+    let blend = match stage {
+        Stage::First => None,
+        Stage::Add { .. } => Some(wgpu::BlendState {
+            color: over(one, one),
+            alpha: over(wgpu::BlendFactor::Zero, one),
+        }),
+        Stage::Blend => Some(wgpu::BlendState {
+            color: over(
+                wgpu::BlendFactor::SrcAlpha,
+                wgpu::BlendFactor::OneMinusSrcAlpha,
+            ),
+            alpha: over(wgpu::BlendFactor::Zero, one),
+        }),
+    };
+    let stencil_face = wgpu::StencilFaceState {
+        compare: match stage {
+            Stage::Add {
+                tests_stencil: true,
+            } => wgpu::CompareFunction::Equal,
+            _ => wgpu::CompareFunction::Always,
+        },
+        ..wgpu::StencilFaceState::IGNORE
+    };
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("surface"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("place"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &vertex_buffers(&shader),
+            },
+            primitive: wgpu::PrimitiveState {
+                front_face: if is_mirrored {
+                    wgpu::FrontFace::Cw
+                } else {
+                    wgpu::FrontFace::Ccw
+                },
+                cull_mode: match cull {
+                    Cull::None => None,
+                    Cull::Back => Some(wgpu::Face::Back),
+                    Cull::Front => Some(wgpu::Face::Front),
+                },
+                ..wgpu::PrimitiveState::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(stage == Stage::First),
+                depth_compare: Some(match stage {
+                    Stage::Add { .. } => wgpu::CompareFunction::Equal,
+                    _ => wgpu::CompareFunction::Greater,
+                }),
+                stencil: wgpu::StencilState {
+                    front: stencil_face,
+                    back: stencil_face,
+                    read_mask: 0xff,
+                    write_mask: 0,
+                },
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: multisample(samples),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some("shade"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: COLOR_FORMAT,
+                    blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+fn volume(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    module: &wgpu::ShaderModule,
+    key: PipelineKey,
+) -> wgpu::RenderPipeline {
+    let PipelineKey::Volume {
+        part,
+        is_unclipped,
+        samples,
+    } = key
+    else {
+        unreachable!("asked for a volume")
+    };
+    let layout = pipeline_layout(
+        gpu,
+        &[
+            Some(&layouts.scene),
+            Some(&layouts.pass),
+            Some(&layouts.volumes),
+        ],
+    );
+    let (entry_point, is_front_ccw) = match part {
+        VolumePart::ZPassSides | VolumePart::ZFailSides => ("side", true),
+        VolumePart::LightCap { is_pos } => ("light_cap", is_pos),
+        VolumePart::DarkCap { is_pos } => ("dark_cap", !is_pos),
+    };
+    // Z-pass counts what lies before the scene: in at a front face, out at a back face. Z-fail
+    // counts what does not: from infinity towards the eye, so in at a back face.
+    let face = |operation| match part {
+        VolumePart::ZPassSides => wgpu::StencilFaceState {
+            compare: wgpu::CompareFunction::Always,
+            fail_op: wgpu::StencilOperation::Keep,
+            depth_fail_op: wgpu::StencilOperation::Keep,
+            pass_op: operation,
+        },
+        _ => wgpu::StencilFaceState {
+            compare: wgpu::CompareFunction::Always,
+            fail_op: wgpu::StencilOperation::Keep,
+            depth_fail_op: operation,
+            pass_op: wgpu::StencilOperation::Keep,
+        },
+    };
+    let (up, down) = (
+        wgpu::StencilOperation::IncrementWrap,
+        wgpu::StencilOperation::DecrementWrap,
+    );
+    let (front, back) = match part {
+        VolumePart::ZPassSides => (face(up), face(down)),
+        _ => (face(down), face(up)),
+    };
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("volume"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState {
+                front_face: if is_front_ccw {
+                    wgpu::FrontFace::Ccw
+                } else {
+                    wgpu::FrontFace::Cw
+                },
+                cull_mode: None,
+                unclipped_depth: is_unclipped,
+                ..wgpu::PrimitiveState::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(false),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState {
+                    front,
+                    back,
+                    read_mask: 0xff,
+                    write_mask: 0xff,
+                },
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: multisample(samples),
+            fragment: None,
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// A pipeline without geometry and without depth.
+fn whole_image(gpu: &Gpu, module: &wgpu::ShaderModule, key: PipelineKey) -> wgpu::RenderPipeline {
+    let (entry_point, format, samples) = match key {
+        PipelineKey::Present { .. } => ("present", OUTPUT_FORMAT, 1),
+        PipelineKey::Background { samples } => ("background", COLOR_FORMAT, samples),
+        _ => unreachable!("asked for a whole image"),
+    };
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry_point),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("whole"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: multisample(samples),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format,
+                    blend: None,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+fn multisample(count: u32) -> wgpu::MultisampleState {
+    wgpu::MultisampleState {
+        count,
+        ..wgpu::MultisampleState::default()
+    }
+}
+
+fn pipeline_layout(
+    gpu: &Gpu,
+    groups: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::PipelineLayout {
+    gpu.device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: groups,
+            immediate_size: 0,
+        })
+}
