@@ -1,5 +1,7 @@
 //! All triangles of one kind (opaque or transparent) in the world, and what a ray meets of them.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use super::bvh::{Bounds, Bvh};
@@ -106,7 +108,8 @@ impl Solid {
         best
     }
 
-    /// All that is seen along the ray before `t_max`, in order of the triangles.
+    /// All that is seen along the ray before `t_max`, in order of the triangles. What the ray meets
+    /// on an edge or corner is seen once, not once for each triangle there.
     pub fn all_before(&self, ray: &Ray, t_max: f64) -> Vec<Hit> {
         let mut hits = Vec::new();
         self.boxes.walk(ray, t_max, |i, _| {
@@ -114,7 +117,36 @@ impl Solid {
             true
         });
         hits.sort_by_key(|hit| hit.triangle);
+        let mut edges = Vec::new();
+        hits.retain(|hit| {
+            let Some(edge) = self.edge(hit) else {
+                return true;
+            };
+            let is_new = !edges.contains(&edge);
+            edges.push(edge);
+            is_new
+        });
         hits
+    }
+
+    /// The edge or corner that the hit is on: its ends, with the object and the side seen.
+    fn edge(&self, hit: &Hit) -> Option<(u32, bool, [DVec3; 2])> {
+        let triangle = &self.triangles[hit.triangle as usize];
+        let pairs = triangle.corners.into_iter().zip(hit.at.weights);
+        let mut ends: Vec<DVec3> = pairs
+            .filter(|pair| pair.1 > 0.0)
+            .map(|pair| pair.0)
+            .collect();
+        ends.sort_by(|p, q| {
+            p.to_array()
+                .partial_cmp(&q.to_array())
+                .unwrap_or(Ordering::Equal)
+        });
+        match ends[..] {
+            [p] => Some((triangle.instance, hit.is_front, [p, p])),
+            [p, q] => Some((triangle.instance, hit.is_front, [p, q])),
+            _ => None,
+        }
     }
 
     /// Whether something stands between `from` and the light. A triangle in whose plane the light

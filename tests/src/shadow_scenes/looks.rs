@@ -80,7 +80,7 @@ const MODELS: [(&str, &str); 4] = [
 pub fn textures() -> [ShadowScene; 4] {
     MODELS.map(|(model, name)| {
         let mut text = Text::new();
-        text.sun([0.0, 0.0, -1.0]);
+        text.sun([0.0, 0.0, -1.0], 1.0);
         text.color([0.9, 0.7, 0.5]);
         // Behind all, so that alpha shows.
         text.colored(
@@ -186,7 +186,7 @@ pub fn fogs() -> [ShadowScene; 4] {
         text.raw(&format!(
             "Environment {{ fogType {kind} fogColor 0.6 0.7 0.8 fogVisibility {visibility} }}"
         ));
-        text.sun([0.4, -1.0, -0.3]);
+        text.sun([0.4, -1.0, -0.3], 1.0);
         text.floor(0.0, 6.0);
         for z in [-4.0, -2.0, 0.0, 2.0, 4.0] {
             let post = Mesh::cuboid([z / 3.0 - 0.3, 0.0, z], [z / 3.0 + 0.3, 1.2, z + 0.3]);
@@ -206,7 +206,7 @@ pub fn fogs() -> [ShadowScene; 4] {
 /// Colours for each vertex, lit and unlit, and seen from behind.
 pub fn vertex_colors() -> ShadowScene {
     let mut text = Text::new();
-    text.sun([0.3, -0.5, -1.0]);
+    text.sun([0.3, -0.5, -1.0], 1.0);
     text.raw("Material { diffuseColor [ 1 0 0, 0 1 0, 0 0 1, 1 1 0 ] }");
     text.raw("MaterialBinding { value PER_VERTEX_INDEXED }");
     let quad = |x: f64| Mesh::quad([x, -0.6, 0.0], [1.2, 0.0, 0.2], [0.1, 1.2, 0.0]);

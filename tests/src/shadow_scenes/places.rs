@@ -80,8 +80,8 @@ fn room(name: &'static str, window: bool) -> ShadowScene {
 /// A lamp in the plane of a quad and of a box's top, and a sun along sides of the box.
 pub fn light_in_plane() -> ShadowScene {
     let mut text = Text::new();
-    text.point_light([0.0, 1.0, 0.0]);
-    text.sun([-1.0, -1.0, 0.0]);
+    text.lamp("PointLight", DVec3::from([0.0, 1.0, 0.0]), "intensity 0.5");
+    text.sun([-1.0, -1.0, 0.0], 0.5);
     text.floor(0.0, 4.0);
     let quad = Mesh::quad([0.5, 1.0, 0.5], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]);
     text.colored([0.9, 0.7, 0.2], &quad);
@@ -105,8 +105,8 @@ pub fn light_in_plane() -> ShadowScene {
 /// One solid, placed by transforms of which some mirror, some scale unevenly.
 pub fn mirrored() -> ShadowScene {
     let mut text = Text::new();
-    text.point_light([0.5, 5.0, 1.0]);
-    text.sun([0.6, -1.0, -0.4]);
+    text.lamp("PointLight", DVec3::from([0.5, 5.0, 1.0]), "intensity 0.5");
+    text.sun([0.6, -1.0, -0.4], 0.5);
     text.floor(0.0, 4.0);
     let mut wedge = Mesh::cuboid([-0.4, 0.0, -0.3], [0.6, 0.5, 0.4]);
     wedge.points[7] += DVec3::new(0.3, 0.6, 0.1);
@@ -156,7 +156,7 @@ const SUN: DVec3 = DVec3::new(0.5, -1.0, 0.25);
 /// Parallel views along the light, against it and across, from far away and from within.
 pub fn parallel_views() -> ShadowScene {
     let mut text = Text::new();
-    text.sun(SUN.to_array());
+    text.sun(SUN.to_array(), 1.0);
     table(&mut text);
     let at = DVec3::new(0.0, 0.7, 0.0);
     let view =
