@@ -92,11 +92,11 @@ impl Solid {
         Self { triangles, boxes }
     }
 
-    /// What is seen along the ray: the nearest hit, of equally near ones that of the first triangle.
-    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+    /// The nearest of the hits that `counts`, of equally near ones that of the first triangle.
+    pub fn nearest(&self, ray: &Ray, counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut best: Option<Hit> = None;
         self.boxes.walk(ray, f64::INFINITY, |i, t_max| {
-            if let Some(hit) = self.seen(i, ray) {
+            if let Some(hit) = self.hit(i, ray).filter(&counts) {
                 let key = |hit: &Hit| (hit.at.t, hit.triangle);
                 if best.as_ref().is_none_or(|best| key(&hit) < key(best)) {
                     *t_max = hit.at.t;
@@ -113,7 +113,8 @@ impl Solid {
     pub fn all_before(&self, ray: &Ray, t_max: f64) -> Vec<Hit> {
         let mut hits = Vec::new();
         self.boxes.walk(ray, t_max, |i, _| {
-            hits.extend(self.seen(i, ray).filter(|hit| hit.at.t < t_max));
+            let hit = self.hit(i, ray).filter(|hit| self.is_seen(hit));
+            hits.extend(hit.filter(|hit| hit.at.t < t_max));
             true
         });
         hits.sort_by_key(|hit| hit.triangle);
@@ -168,14 +169,18 @@ impl Solid {
         found
     }
 
-    fn seen(&self, i: u32, ray: &Ray) -> Option<Hit> {
+    /// Whether the side that is hit is drawn.
+    pub fn is_seen(&self, hit: &Hit) -> bool {
+        hit.is_front || !self.triangles[hit.triangle as usize].front_only
+    }
+
+    fn hit(&self, i: u32, ray: &Ray) -> Option<Hit> {
         let triangle = &self.triangles[i as usize];
         let at = ray.cross(&triangle.corners).filter(|at| at.t > 0.0)?;
-        let is_front = triangle.is_front(ray.direction);
-        (is_front || !triangle.front_only).then_some(Hit {
+        Some(Hit {
             triangle: i,
             at,
-            is_front,
+            is_front: triangle.is_front(ray.direction),
         })
     }
 }
