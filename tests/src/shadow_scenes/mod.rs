@@ -15,8 +15,8 @@ pub use edges::{
 pub use layers::{LAYERS, nested_open_shells, nested_shells, quad_stack};
 pub use looks::{fogs, many_lights, panes, textures, vertex_colors};
 pub use places::{
-    closed_room, eye_in_shadow, far_by_coordinates, far_by_transform, light_in_plane, mirrored,
-    parallel_views, parallel_views_of_lamp, room_with_window,
+    closed_room, eye_in_shadow, eye_on_side_plane, far_by_coordinates, far_by_transform,
+    light_in_plane, mirrored, parallel_views, parallel_views_of_lamp, room_with_window,
 };
 pub use sphere_grid::{GridLight, GridSize, sphere_grid};
 
@@ -65,6 +65,7 @@ pub fn all(offset: DVec3) -> Vec<ShadowScene> {
         nested_shells(),
         nested_open_shells(),
         eye_in_shadow(),
+        eye_on_side_plane(),
         closed_room(),
         room_with_window(),
         light_in_plane(),

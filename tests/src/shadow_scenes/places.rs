@@ -27,6 +27,41 @@ pub fn eye_in_shadow() -> ShadowScene {
     }
 }
 
+/// A square under a lamp, with eyes in the plane through the lamp and one of its sides, a hair
+/// beside it, and so near to the square that a near plane could cut it.
+pub fn eye_on_side_plane() -> ShadowScene {
+    let mut text = Text::new();
+    text.point_light([0.0, 4.0, 0.0]);
+    text.floor(0.0, 5.0);
+    let quad = Mesh::quad([-1.0, 2.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]);
+    text.colored([0.9, 0.4, 0.4], &quad);
+    // At height y the plane is at x = (4 - y) / 2.
+    let to =
+        |eye: [f64; 3], target: [f64; 3]| perspective(DVec3::from(eye), DVec3::from(target), 0.8);
+    let across = |x: f64| to([x, 1.0, 0.25], [-1.0, 0.5, -0.5]);
+    ShadowScene {
+        name: "eye on the side of a shadow volume",
+        text: text.finish(),
+        cameras: vec![
+            ("on it", across(1.5)),
+            ("a hair inside", across(1.5 - 1e-5)),
+            ("a hair outside", across(1.5 + 1e-5)),
+            ("inside", across(1.5 - 1e-3)),
+            ("outside", across(1.5 + 1e-3)),
+            ("on two", to([1.5, 1.0, 1.5], [-1.0, 0.5, -0.5])),
+            (
+                "just above the square",
+                to([0.9, 2.001, 0.3], [3.0, 0.5, 1.0]),
+            ),
+            (
+                "just below the square",
+                to([0.9, 1.999, 0.3], [3.0, 0.5, 1.0]),
+            ),
+            ("at the lamp", to([0.0, 4.0, 0.0], [0.9, 2.0, 0.7])),
+        ],
+    }
+}
+
 /// A lamp in a closed room, with furniture; outside it is dark.
 pub fn closed_room() -> ShadowScene {
     room("light in a closed room", false)

@@ -6,10 +6,10 @@ use std::path::Path;
 use glam::DVec3;
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 use tests::measure::{primitives, totals};
-use tests::reference::{RefImage, RefOptions, Reference};
+use tests::reference::{Ray, RefImage, RefOptions, Reference};
 use tests::shadow_scenes::{
-    GridLight, GridSize, LAYERS, ShadowScene, all, closed_room, light_in_plane, many_on_an_edge,
-    mirrored, nested_shells, parallel_views, quad_stack, scene_of, sphere_grid,
+    GridLight, GridSize, LAYERS, ShadowScene, all, closed_room, eye_on_side_plane, light_in_plane,
+    many_on_an_edge, mirrored, nested_shells, parallel_views, quad_stack, scene_of, sphere_grid,
 };
 
 use super::BACKGROUND;
@@ -67,6 +67,9 @@ fn lit_and_dark_where_they_should_be() {
         (quad_stack(), vec!["over"], 0.5..=0.95),
         (parallel_views(), vec!["along"], 1.0..=1.0),
         (parallel_views(), vec!["against"], 0.0..=0.0),
+        // The lamp sees no shadows.
+        (eye_on_side_plane(), vec!["at the lamp"], 1.0..=1.0),
+        (eye_on_side_plane(), vec!["on it"], 0.1..=0.8),
         (light_in_plane(), vec!["over"], 0.5..=0.99),
     ];
     for (scene, cameras, expected) in rows {
@@ -81,10 +84,18 @@ fn lit_and_dark_where_they_should_be() {
 
 #[test]
 fn scenes_hold_what_they_are_about() {
-    // Each layer is met by the light's ray to the middle of the floor.
-    for (scene, times) in [(quad_stack(), 1), (nested_shells(), 1)] {
-        let layers = primitives(&scene_of(&scene.text)).count();
-        assert!(layers >= 2 * times * LAYERS, "{}: {layers}", scene.name);
+    // From the light to the floor there are as many layers as said, and the floor.
+    for (scene, light) in [
+        (quad_stack(), [0.3, 5.0, 0.2]),
+        (nested_shells(), [0.0, 1.5, 0.0]),
+    ] {
+        let ray = Ray::new(DVec3::from(light), DVec3::new(0.01, -1.0, 0.017));
+        let all = scene_of(&scene.text);
+        let corners = primitives(&all).map(|p| [0, 1, 2].map(|i| p.corners[i].p_in_world));
+        let crossings = corners
+            .filter_map(|corners| ray.cross(&corners))
+            .filter(|at| at.t > 0.0);
+        assert_eq!(crossings.count(), LAYERS + 1, "{}", scene.name);
     }
     // The most triangles that have an edge in common.
     let mut edges: BTreeMap<[[u64; 3]; 2], usize> = BTreeMap::new();
