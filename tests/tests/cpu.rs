@@ -9,6 +9,7 @@ mod cpu {
     mod large;
     mod models;
     mod precision;
+    mod reference;
     mod robustness;
     mod roundtrip;
     mod rules;

@@ -16,16 +16,16 @@ pub struct RefImage {
     pub lit: Vec<u128>,
     /// View depth of the opaque surface; infinite where there is none.
     pub depth: Vec<f64>,
-    /// Plane of the opaque surface, see [`Facet`].
+    /// Triangle of the opaque surface; all zero where there is none.
     pub facet: Vec<Facet>,
     /// Stands for the list of transparent surfaces before the opaque one; 0 if there are none.
     pub layers: Vec<u64>,
 }
 
-/// The plane of a triangle in view space.
+/// The triangle seen in a pixel, and its plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Facet {
-    /// Instance and triangle.
+    /// Index of the instance, and number of the triangle in its mesh.
     pub id: (u32, u32),
     /// Unit normal towards the viewer, in the world.
     pub normal: [f64; 3],

@@ -154,10 +154,12 @@ impl<'a> Reference<'a> {
         assembled(size, &pixels)
     }
 
-    /// Opaque triangles that a ray from `origin` along `direction` meets first: the instance and
-    /// where.
+    /// The opaque triangle that a ray from `origin` along `direction` meets first on either side,
+    /// drawn or not: its instance, and where.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<(u32, Crossing)> {
-        let hit = self.opaque.nearest(&Ray::new(origin, direction))?;
+        let hit = self
+            .opaque
+            .nearest(&Ray::new(origin, direction), |_| true)?;
         Some((self.triangle_of(&hit).instance, hit.at))
     }
 
@@ -201,7 +203,7 @@ impl<'a> Reference<'a> {
             depth: f64::INFINITY,
             ..Pixel::default()
         };
-        if let Some(hit) = self.opaque.nearest(&ray) {
+        if let Some(hit) = self.opaque.nearest(&ray, |hit| self.opaque.is_seen(hit)) {
             self.opaque_pixel(view, at, &ray, hit, &mut pixel);
         }
         self.blend_transparent(view, &ray, &mut pixel);

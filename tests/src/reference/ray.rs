@@ -5,7 +5,7 @@
 //! is that of the exact difference, or it is zero; and two triangles that share an edge compute it
 //! from the same sheared corners. Zero counts as inside, so a ray cannot slip between the two, and
 //! the paper's second computation with more digits is not needed: it would only tell apart which
-//! of the two is hit. This holds as long as no product underflows.
+//! of the two is hit. Nor is its swap of axes, as both windings are hit. This holds as long as no product underflows.
 
 use glam::DVec3;
 
@@ -33,11 +33,7 @@ impl Ray {
     /// A ray along `direction`.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         let z = direction.abs().max_position();
-        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
-        // Keeps the winding of the projected triangles.
-        if direction[z] < 0.0 {
-            (x, y) = (y, x);
-        }
+        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
         let along = direction[z];
         Self {
             origin,

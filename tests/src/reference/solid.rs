@@ -1,5 +1,7 @@
 //! All triangles of one kind (opaque or transparent) in the world, and what a ray meets of them.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use super::bvh::{Bounds, Bvh};
@@ -90,11 +92,11 @@ impl Solid {
         Self { triangles, boxes }
     }
 
-    /// What is seen along the ray: the nearest hit, of equally near ones that of the first triangle.
-    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+    /// The nearest of the hits that `counts`, of equally near ones that of the first triangle.
+    pub fn nearest(&self, ray: &Ray, counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut best: Option<Hit> = None;
         self.boxes.walk(ray, f64::INFINITY, |i, t_max| {
-            if let Some(hit) = self.seen(i, ray) {
+            if let Some(hit) = self.hit(i, ray).filter(&counts) {
                 let key = |hit: &Hit| (hit.at.t, hit.triangle);
                 if best.as_ref().is_none_or(|best| key(&hit) < key(best)) {
                     *t_max = hit.at.t;
@@ -106,15 +108,46 @@ impl Solid {
         best
     }
 
-    /// All that is seen along the ray before `t_max`, in order of the triangles.
+    /// All that is seen along the ray before `t_max`, in order of the triangles. What the ray meets
+    /// on an edge or corner is seen once, not once for each triangle there.
     pub fn all_before(&self, ray: &Ray, t_max: f64) -> Vec<Hit> {
         let mut hits = Vec::new();
         self.boxes.walk(ray, t_max, |i, _| {
-            hits.extend(self.seen(i, ray).filter(|hit| hit.at.t < t_max));
+            let hit = self.hit(i, ray).filter(|hit| self.is_seen(hit));
+            hits.extend(hit.filter(|hit| hit.at.t < t_max));
             true
         });
         hits.sort_by_key(|hit| hit.triangle);
+        let mut edges = Vec::new();
+        hits.retain(|hit| {
+            let Some(edge) = self.edge(hit) else {
+                return true;
+            };
+            let is_new = !edges.contains(&edge);
+            edges.push(edge);
+            is_new
+        });
         hits
+    }
+
+    /// The edge or corner that the hit is on: its ends, with the object and the side seen.
+    fn edge(&self, hit: &Hit) -> Option<(u32, bool, [DVec3; 2])> {
+        let triangle = &self.triangles[hit.triangle as usize];
+        let pairs = triangle.corners.into_iter().zip(hit.at.weights);
+        let mut ends: Vec<DVec3> = pairs
+            .filter(|pair| pair.1 > 0.0)
+            .map(|pair| pair.0)
+            .collect();
+        ends.sort_by(|p, q| {
+            p.to_array()
+                .partial_cmp(&q.to_array())
+                .unwrap_or(Ordering::Equal)
+        });
+        match ends[..] {
+            [p] => Some((triangle.instance, hit.is_front, [p, p])),
+            [p, q] => Some((triangle.instance, hit.is_front, [p, q])),
+            _ => None,
+        }
     }
 
     /// Whether something stands between `from` and the light. A triangle in whose plane the light
@@ -136,14 +169,18 @@ impl Solid {
         found
     }
 
-    fn seen(&self, i: u32, ray: &Ray) -> Option<Hit> {
+    /// Whether the side that is hit is drawn.
+    pub fn is_seen(&self, hit: &Hit) -> bool {
+        hit.is_front || !self.triangles[hit.triangle as usize].front_only
+    }
+
+    fn hit(&self, i: u32, ray: &Ray) -> Option<Hit> {
         let triangle = &self.triangles[i as usize];
         let at = ray.cross(&triangle.corners).filter(|at| at.t > 0.0)?;
-        let is_front = triangle.is_front(ray.direction);
-        (is_front || !triangle.front_only).then_some(Hit {
+        Some(Hit {
             triangle: i,
             at,
-            is_front,
+            is_front: triangle.is_front(ray.direction),
         })
     }
 }

@@ -73,7 +73,7 @@ pub fn sphere_grid(size: GridSize, light: GridLight) -> ShadowScene {
     let mut text = Text::new();
     match light {
         GridLight::Point => text.point_light([0.31, 0.4 * half + 2.0, 0.17]),
-        GridLight::Directional => text.sun([-0.5, -1.0, -0.3]),
+        GridLight::Directional => text.sun([-0.5, -1.0, -0.3], 1.0),
     }
     text.floor(0.0, 2.0 * half);
     text.color([0.9, 0.5, 0.3]);

@@ -162,9 +162,9 @@ impl Text {
     }
 
     /// A directional light; `direction` is the way it travels.
-    pub(super) fn sun(&mut self, [x, y, z]: [f64; 3]) {
+    pub(super) fn sun(&mut self, [x, y, z]: [f64; 3], intensity: f64) {
         self.add(format_args!(
-            "DirectionalLight {{ direction {x} {y} {z} }}\n"
+            "DirectionalLight {{ direction {x} {y} {z} intensity {intensity} }}\n"
         ));
     }
 
