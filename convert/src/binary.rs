@@ -1,7 +1,9 @@
-//! The numbers of a buffer, streamed from the scene's arrays through one small block.
+//! The numbers of a buffer, streamed from the scene's arrays: as they are where the machine's byte
+//! order is glTF's and nothing changes, else through one small block.
 
 use std::io::{self, Write};
 
+use bytemuck::Pod;
 use scenegraph::scene::{Mesh, Scene};
 
 use crate::color::{linear_from_srgb, u16_from_unit};
@@ -62,8 +64,8 @@ impl Packer<'_> {
 
     fn write_array(&mut self, mesh: &Mesh, data: Data) -> io::Result<()> {
         match data {
-            Data::Positions => self.pack(&mesh.positions, |&p| bytes_of_vec3(p)),
-            Data::Normals => self.pack(&mesh.normals, |&n| bytes_of_vec3(n)),
+            Data::Positions => self.copy(&mesh.positions, |&p| bytes_of_vec3(p)),
+            Data::Normals => self.copy(&mesh.normals, |&n| bytes_of_vec3(n)),
             // Inventor's T goes up from the image's lower edge, glTF's down from the upper.
             Data::Texcoords => self.pack(&mesh.texcoords, |&[s, t]| {
                 let ([a, b, c, d], [e, f, g, h]) = (s.to_le_bytes(), (1.0 - t).to_le_bytes());
@@ -77,7 +79,20 @@ impl Packer<'_> {
             }
             // The width was chosen by the number of vertices.
             Data::Indices16 => self.pack(&mesh.indices, |&i| (i as u16).to_le_bytes()),
-            Data::Indices32 => self.pack(&mesh.indices, |&i| i.to_le_bytes()),
+            Data::Indices32 => self.copy(&mesh.indices, |&i| i.to_le_bytes()),
+        }
+    }
+
+    /// Writes items that `bytes_of` only puts into glTF's byte order, which is little-endian.
+    fn copy<T: Pod, const N: usize>(
+        &mut self,
+        items: &[T],
+        bytes_of: impl FnMut(&T) -> [u8; N],
+    ) -> io::Result<()> {
+        if cfg!(target_endian = "little") {
+            self.write_bytes(bytemuck::cast_slice(items))
+        } else {
+            self.pack(items, bytes_of)
         }
     }
 

@@ -4,12 +4,12 @@
 //! of them are complete.
 
 use std::ffi::OsStr;
-use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use scenegraph::scene::Scene;
 use tempfile::NamedTempFile;
 
+use crate::blocks::Blocks;
 use crate::texture::TextureLoader;
 use crate::{Container, Error, Options, Plan, Report};
 
@@ -80,7 +80,7 @@ fn write_gltf_files(plan: &Plan, path: &Path) -> Result<Report, Error> {
 
 /// A file being written under another name.
 struct Pending {
-    out: BufWriter<NamedTempFile>,
+    out: Blocks<NamedTempFile>,
     target: PathBuf,
 }
 
@@ -106,7 +106,7 @@ impl Pending {
         }
         let file = builder.tempfile_in(folder).map_err(Error::at(target))?;
         Ok(Self {
-            out: BufWriter::with_capacity(1 << 16, file),
+            out: Blocks::new(file),
             target: target.to_owned(),
         })
     }
@@ -119,12 +119,8 @@ impl Pending {
         }
     }
 
-    fn complete(mut self) -> Result<Complete, Error> {
-        self.out.flush().map_err(Error::at(&self.target))?;
-        let file = self
-            .out
-            .into_inner()
-            .map_err(|e| Error::at(&self.target)(e.into_error()))?;
+    fn complete(self) -> Result<Complete, Error> {
+        let file = self.out.finish().map_err(Error::at(&self.target))?;
         Ok(Complete {
             file,
             target: self.target,

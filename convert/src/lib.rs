@@ -18,6 +18,7 @@
 //! only.
 
 mod binary;
+mod blocks;
 mod bounds;
 mod camera;
 mod color;

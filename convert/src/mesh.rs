@@ -31,9 +31,11 @@ impl Facts {
         let mut min = [f32::INFINITY; 3];
         let mut max = [f32::NEG_INFINITY; 3];
         for position in &mesh.positions {
+            // Positions are finite: comparisons do without what `f32::min` does for NaN.
             for axis in 0..3 {
-                min[axis] = min[axis].min(position[axis]);
-                max[axis] = max[axis].max(position[axis]);
+                let x = position[axis];
+                min[axis] = if x < min[axis] { x } else { min[axis] };
+                max[axis] = if x > max[axis] { x } else { max[axis] };
             }
         }
         let opaque = |color: &[f32; 4]| u16_from_unit(f64::from(color[3])) == u16::MAX;

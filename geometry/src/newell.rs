@@ -43,6 +43,7 @@ impl AreaVector {
 /// Each summand takes at most four roundings (difference, product, difference, and the
 /// running sum's first), each further addition one: with `n` points the error is below
 /// `gamma(n + 4)` times the sum of the absolute products.
+#[inline]
 pub(crate) fn area_vector(points: &[DVec3], factor: f64) -> AreaVector {
     let first = points.first().map_or(DVec3::ZERO, |&p| p * factor);
     let mut vector = DVec3::ZERO;
@@ -63,14 +64,13 @@ pub(crate) fn area_vector(points: &[DVec3], factor: f64) -> AreaVector {
 
 /// The power of two by which coordinates must be multiplied so that their products neither
 /// overflow nor vanish; 1 for all but extreme coordinates. `None` if one is not finite.
+#[inline]
 pub(crate) fn range_factor(points: &[DVec3]) -> Option<f64> {
     const PLAIN: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
-    let mut max = 0.0_f64;
-    let mut finite = true;
-    for p in points {
-        finite &= p.is_finite();
-        max = max.max(p.abs().max_element());
-    }
+    // The bits of positive numbers are in order of size, with infinity and NaNs above all.
+    let magnitudes = points.iter().flat_map(|p| p.abs().to_array());
+    let max = f64::from_bits(magnitudes.map(f64::to_bits).max().unwrap_or(0));
+    let finite = max.is_finite();
     let factor = if max == 0.0 || PLAIN.contains(&max) {
         1.0
     } else {

@@ -74,6 +74,50 @@ impl Welder {
         )
     }
 
+    /// Welds rows that can be equal only within a group: rows `i` and `j` of one group are the
+    /// same if `equal(i, j)`. `groups` has the group of each row, all below `group_count`.
+    ///
+    /// `remap` is as of [`Welder::weld`]; `firsts` gets the first row of each distinct one. Returns
+    /// `false`, and nothing of use, if there are groups with so many distinct rows that hashing is
+    /// better. Rows beyond `u32::MAX - 1` are ignored.
+    pub fn weld_in_groups(
+        &mut self,
+        groups: impl ExactSizeIterator<Item = u32>,
+        group_count: usize,
+        equal: impl Fn(u32, u32) -> bool,
+        remap: &mut Vec<u32>,
+        firsts: &mut Vec<u32>,
+    ) -> bool {
+        let max_probes = MEAN_PROBES * (groups.len() as u64 + 64);
+        // For each group its newest distinct row, for each of these the one before it.
+        self.slots.clear();
+        self.slots.resize(group_count, EMPTY);
+        self.order.clear();
+        remap.clear();
+        remap.reserve(groups.len());
+        firsts.clear();
+        let mut probes = 0_u64;
+        for (group, row) in groups.zip(0..EMPTY) {
+            let newest = &mut self.slots[group as usize];
+            let mut at = *newest;
+            while at != EMPTY && !equal(firsts[at as usize], row) {
+                at = self.order[at as usize];
+                probes += 1;
+            }
+            if at == EMPTY {
+                at = firsts.len() as u32;
+                firsts.push(row);
+                self.order.push(*newest);
+                *newest = at;
+            }
+            remap.push(at);
+            if probes > max_probes {
+                return false;
+            }
+        }
+        true
+    }
+
     fn weld_arrays<const N: usize>(&mut self, words: &[u32], remap: &mut Vec<u32>) -> usize {
         let (rows, _) = words.as_chunks::<N>();
         self.weld_rows(
@@ -299,6 +343,40 @@ mod tests {
         let compare = |i: u32, j: u32| keys[i as usize].cmp(&keys[j as usize]);
         let distinct = welder.weld_rows(5000, same_hash, compare, &mut remap);
         assert_eq!((remap, distinct), expected(keys.iter()));
+    }
+
+    #[test]
+    fn rows_in_groups_are_welded_as_hashing_would() {
+        let mut rng = Rng(7);
+        let mut welder = Welder::new();
+        let (mut remap, mut firsts) = (Vec::new(), Vec::new());
+        // Many distinct rows in a single group are left to hashing.
+        for (count, groups, values, welds) in [
+            (0, 0, 1, true),
+            (10, 1, 2, true),
+            (3000, 1000, 4, true),
+            (3000, 5, 3, true),
+            (3000, 1, 3000, false),
+        ] {
+            let rows: Vec<(u32, u64)> = (0..count)
+                .map(|_| (rng.below(groups) as u32, rng.below(values)))
+                .collect();
+            let (expected_remap, distinct) = expected(rows.iter());
+            let welded = welder.weld_in_groups(
+                rows.iter().map(|&(group, _)| group),
+                groups as usize,
+                |i, j| rows[i as usize].1 == rows[j as usize].1,
+                &mut remap,
+                &mut firsts,
+            );
+            assert_eq!(welded, welds, "{count} rows in {groups} groups");
+            if welds {
+                assert_eq!(remap, expected_remap);
+                let first_of = |k| expected_remap.iter().position(|&r| r == k).unwrap() as u32;
+                let expected_firsts: Vec<u32> = (0..distinct as u32).map(first_of).collect();
+                assert_eq!(firsts, expected_firsts);
+            }
+        }
     }
 
     #[test]

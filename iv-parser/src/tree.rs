@@ -1,12 +1,11 @@
 //! The syntax tree: nodes, fields and values in an arena, with spans.
 //!
-//! Names are borrowed from the source. Numbers stand in bulk: short lists in two shared pools,
-//! long ones in arrays of their own that later stages can take without copying.
-
-use std::sync::Arc;
+//! Names are borrowed from the source. Numbers stand in bulk: a few in two pools, more in shared
+//! arrays that later stages can take parts of without copying.
 
 use crate::header::Header;
 use crate::lex;
+use crate::list::{List, Lists, Part};
 use crate::number;
 use crate::source::Span;
 
@@ -102,16 +101,16 @@ pub enum Value {
 }
 
 /// A run of numbers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Numbers {
     /// Range of the tree's integers.
     Ints(u32, u32),
     /// Range of the tree's floats.
     Floats(u32, u32),
     /// Many integers.
-    ManyInts(Arc<Vec<i32>>),
+    ManyInts(Part),
     /// Many floats.
-    ManyFloats(Arc<Vec<f64>>),
+    ManyFloats(Part),
 }
 
 /// A single value in a list that is not all numbers.
@@ -140,6 +139,8 @@ pub struct Tree<'a> {
     pub(crate) atoms: Vec<Atom<'a>>,
     pub(crate) ints: Vec<i32>,
     pub(crate) floats: Vec<f64>,
+    pub(crate) int_lists: Lists<i32>,
+    pub(crate) float_lists: Lists<f64>,
     pub(crate) roots: Vec<Child<'a>>,
 }
 
@@ -169,6 +170,8 @@ impl<'a> Tree<'a> {
             atoms: Vec::new(),
             ints: Vec::new(),
             floats: Vec::new(),
+            int_lists: Lists::default(),
+            float_lists: Lists::default(),
             roots: Vec::new(),
         }
     }
@@ -205,19 +208,35 @@ impl<'a> Tree<'a> {
     }
 
     /// The numbers as integers, if all are written as such.
-    pub fn ints<'t>(&'t self, numbers: &'t Numbers) -> Option<&'t [i32]> {
+    pub fn ints(&self, numbers: &Numbers) -> Option<&[i32]> {
         match numbers {
             Numbers::Ints(start, end) => Some(&self.ints[*start as usize..*end as usize]),
-            Numbers::ManyInts(values) => Some(values),
+            Numbers::ManyInts(part) => Some(self.int_lists.values(*part)),
             _ => None,
         }
     }
 
     /// The numbers as floats, if at least one is written as such.
-    pub fn floats<'t>(&'t self, numbers: &'t Numbers) -> Option<&'t [f64]> {
+    pub fn floats(&self, numbers: &Numbers) -> Option<&[f64]> {
         match numbers {
             Numbers::Floats(start, end) => Some(&self.floats[*start as usize..*end as usize]),
-            Numbers::ManyFloats(values) => Some(values),
+            Numbers::ManyFloats(part) => Some(self.float_lists.values(*part)),
+            _ => None,
+        }
+    }
+
+    /// Many integers, shared with the tree.
+    pub fn many_ints(&self, numbers: &Numbers) -> Option<List<i32>> {
+        match numbers {
+            Numbers::ManyInts(part) => Some(self.int_lists.share(*part)),
+            _ => None,
+        }
+    }
+
+    /// Many floats, shared with the tree.
+    pub fn many_floats(&self, numbers: &Numbers) -> Option<List<f64>> {
+        match numbers {
+            Numbers::ManyFloats(part) => Some(self.float_lists.share(*part)),
             _ => None,
         }
     }
@@ -226,8 +245,7 @@ impl<'a> Tree<'a> {
     pub fn count(&self, numbers: &Numbers) -> usize {
         match numbers {
             Numbers::Ints(start, end) | Numbers::Floats(start, end) => (end - start) as usize,
-            Numbers::ManyInts(values) => values.len(),
-            Numbers::ManyFloats(values) => values.len(),
+            Numbers::ManyInts(part) | Numbers::ManyFloats(part) => part.len(),
         }
     }
 

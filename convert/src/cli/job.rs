@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::args::{Args, Format};
 use super::inputs::Input;
-use super::{atomic, inventor, model};
+use super::{atomic, bytes, inventor, model};
 
 /// What is the same for all inputs.
 #[derive(Clone, Debug)]
@@ -114,7 +114,7 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
 }
 
 fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
-    let bytes = model::read(&outcome.input)?;
+    let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
     let name = outcome.input.display().to_string().into();
     let text = inventor::Text::of(&bytes, &name);
@@ -161,7 +161,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
 /// Reads and resolves the input. Text and graph are gone when this returns, so that they do not
 /// take up memory while the output is made.
 fn resolved(outcome: &mut Outcome, files: &FileLoader) -> Result<Resolved, String> {
-    let bytes = model::read(&outcome.input)?;
+    let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
     let mut graph = model::graph(&bytes, &outcome.input, files);
     drop(bytes);

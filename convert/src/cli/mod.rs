@@ -7,6 +7,7 @@
 
 mod args;
 mod atomic;
+mod bytes;
 mod info;
 mod inputs;
 mod inventor;

@@ -1,34 +1,9 @@
-//! Reading one input: its bytes, its graph, and whether its format can be read at all.
+//! One input: its graph, and whether its format can be read at all.
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use iv_parser::Diagnostic;
 use scenegraph::{FileLoader, Graph, Loader};
-
-/// Longest input read: one byte more than the parser takes, so that it can say so.
-const MAX_BYTES: u64 = 1 << 32;
-
-/// The bytes of an input.
-///
-/// # Errors
-///
-/// What the system says, in words.
-pub fn read(path: &Path) -> Result<Vec<u8>, String> {
-    let cannot = |error: io::Error| format!("cannot be read: {error}");
-    let file = File::open(path).map_err(cannot)?;
-    let length = file.metadata().map_err(cannot)?.len();
-    let mut bytes = Vec::new();
-    // A failed reservation is an error here and would end the process in `read_to_end`.
-    bytes
-        .try_reserve_exact(length.min(MAX_BYTES) as usize)
-        .map_err(|_| "cannot be read: there is not enough memory".to_owned())?;
-    file.take(MAX_BYTES)
-        .read_to_end(&mut bytes)
-        .map_err(cannot)?;
-    Ok(bytes)
-}
 
 /// Opens what a model refers to: in its own folder, then in the search folders.
 pub fn file_loader(path: &Path, search: &[PathBuf]) -> FileLoader {

@@ -91,11 +91,12 @@ impl CreaseNormals {
     /// cut.
     pub fn compute(&mut self, faces: &Corners, crease_angle_rad: f64, out: &mut Vec<[f32; 3]>) {
         out.clear();
-        out.extend(
-            faces.corner_face[..faces.len()]
-                .iter()
-                .map(|&face| stored(faces.normal_of_face(face))),
-        );
+        out.reserve(faces.len());
+        // The corners of a face stand together.
+        for corners in faces.corner_face[..faces.len()].chunk_by(|a, b| a == b) {
+            let normal = stored(faces.normal_of_face(corners[0]));
+            out.extend(corners.iter().map(|_| normal));
+        }
         if crease_angle_rad.is_nan() || crease_angle_rad <= 0.0 {
             return;
         }

@@ -15,6 +15,7 @@ use glam::DVec3;
 /// degenerate: fewer than three points, a non-finite point, or an area no larger than the
 /// rounding error of computing it.
 #[must_use]
+#[inline]
 pub fn face_normal(points: &[DVec3]) -> DVec3 {
     let Some(factor) = range_factor(points) else {
         return DVec3::ZERO;

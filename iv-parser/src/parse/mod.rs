@@ -70,6 +70,8 @@ pub fn parse_with<'a>(bytes: &'a [u8], limits: &Limits) -> Parse<'a> {
     if !parser.problems.iter().any(is_foreign) {
         parser.run();
     }
+    parser.tree.int_lists.close();
+    parser.tree.float_lists.close();
     Parse {
         tree: parser.tree,
         problems: parser.problems,

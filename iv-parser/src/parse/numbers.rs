@@ -3,8 +3,6 @@
 //! Which fields hold integers is not known here, so a run begins as integers and turns into floats
 //! at the first token with a point, an exponent or a large value.
 
-use std::sync::Arc;
-
 use super::Parser;
 use super::plain::{self, Stop};
 use crate::diagnostic::Severity;
@@ -13,11 +11,9 @@ use crate::number::{Number, Remark, number};
 use crate::source::Span;
 use crate::tree::{FieldId, Numbers, Value};
 
-/// Runs at least this long get an array of their own, to be passed on without copying.
-const MANY: usize = 64;
-
-/// Runs at least this long are moved rather than copied.
-const HUGE: usize = 1 << 16;
+/// Runs at least this long can be passed on without copying: more than a value of a field that
+/// takes one value has, but for matrices.
+const MANY: usize = 5;
 
 impl Parser<'_> {
     /// Whether a number, or a word for one that is not a number, is here.
@@ -191,24 +187,13 @@ impl Parser<'_> {
                 self.tree.floats.extend_from_slice(&run.floats);
                 Numbers::Floats(start as u32, self.tree.floats.len() as u32)
             }
-            (false, _) => Numbers::ManyInts(Arc::new(taken(&mut run.ints))),
-            (true, _) => Numbers::ManyFloats(Arc::new(taken(&mut run.floats))),
+            (false, _) => Numbers::ManyInts(self.tree.int_lists.add(&mut run.ints)),
+            (true, _) => Numbers::ManyFloats(self.tree.float_lists.add(&mut run.floats)),
         };
         run.clear();
         self.run = run;
         numbers
     }
-}
-
-/// The values of a buffer, in an array of exactly their size: a huge buffer is given away, others
-/// are copied so that the buffer need not grow again.
-fn taken<T: Copy>(buffer: &mut Vec<T>) -> Vec<T> {
-    if buffer.len() < HUGE {
-        return buffer.clone();
-    }
-    let mut values = std::mem::take(buffer);
-    values.shrink_to_fit();
-    values
 }
 
 /// The numbers of a run read so far: in `ints` until the first float, then in `floats`.

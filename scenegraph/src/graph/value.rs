@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use iv_parser::List;
+
 use super::NodeId;
 use crate::scene::Image;
 
@@ -15,11 +17,11 @@ pub enum FieldValue {
     /// Up to four numbers, of any numeric type that is not integer.
     Few(u8, [f64; 4]),
     /// More numbers, flat.
-    Many(Arc<Vec<f64>>),
+    Many(List<f64>),
     /// A single integer.
     Int(i32),
     /// Several integers.
-    Ints(Arc<Vec<i32>>),
+    Ints(List<i32>),
     /// An enum's value or a mask's bits, in the registry's numbering.
     Word(u32),
     /// Texts.
@@ -38,7 +40,7 @@ impl FieldValue {
             few[..values.len()].copy_from_slice(values);
             Self::Few(values.len() as u8, few)
         } else {
-            Self::Many(Arc::new(values.to_vec()))
+            Self::Many(values.to_vec().into())
         }
     }
 

@@ -6,9 +6,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use iv_parser::{
-    Atom, Child, Numbers, Problem, Severity, Span, Tree, Value, decode_string, parse, text_of,
-};
+use iv_parser::{Atom, Child, Problem, Severity, Span, Tree, Value, decode_string, parse, text_of};
 
 use crate::graph::{FieldValue, NodeId};
 use crate::registry::{FieldSpec, FieldType};
@@ -241,13 +239,11 @@ impl<'a> Reader<'_, 'a> {
         };
         let usable = self.usable(given.len(), field_type, span)?;
         if usable == given.len() {
-            // A long list is shared with the tree, not copied.
-            if let Value::Numbers {
-                numbers: Numbers::ManyFloats(all),
-                ..
-            } = value
+            // A longer list is shared with the tree, not copied.
+            if let Value::Numbers { numbers, .. } = value
+                && let Some(all) = self.tree.many_floats(numbers)
             {
-                return Some(FieldValue::Many(Arc::clone(all)));
+                return Some(FieldValue::Many(all));
             }
         }
         Some(FieldValue::from_numbers(&given[..usable]))
@@ -318,20 +314,19 @@ impl<'a> Reader<'_, 'a> {
             }
         };
         let usable = self.usable(given.len(), field_type, span)?;
-        if let (
-            Value::Numbers {
-                numbers: Numbers::ManyInts(all),
-                octal: false,
-                ..
-            },
-            true,
-        ) = (value, usable == given.len())
+        if let Value::Numbers {
+            numbers,
+            octal: false,
+            ..
+        } = value
+            && usable == given.len()
+            && let Some(all) = self.tree.many_ints(numbers)
         {
-            return Some(FieldValue::Ints(Arc::clone(all)));
+            return Some(FieldValue::Ints(all));
         }
         Some(match &given[..usable] {
             [one] => FieldValue::Int(*one),
-            many => FieldValue::Ints(Arc::new(many.to_vec())),
+            many => FieldValue::Ints(many.to_vec().into()),
         })
     }
 

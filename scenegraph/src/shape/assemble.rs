@@ -6,7 +6,7 @@
 use geometry::bounds::Aabb;
 use geometry::local_origin::local_origin;
 use geometry::triangulate::{Outcome, Triangulator};
-use geometry::weld::{Welder, key_bits};
+use geometry::weld::Welder;
 use glam::{DVec3, Vec3};
 
 use crate::remarks::Remarks;
@@ -33,7 +33,10 @@ pub struct Assembler {
     used: Vec<u32>,
     made_normals: Vec<[f32; 3]>,
     vertex_of: Vec<u32>,
-    corner_of: Vec<usize>,
+    corner_of: Vec<u32>,
+    /// The numbered coordinates, once something asks for them.
+    points: Vec<DVec3>,
+    positions: Vec<[f32; 3]>,
     loop_points: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     triangulator: Triangulator,
@@ -41,10 +44,11 @@ pub struct Assembler {
 }
 
 impl Assembler {
-    /// The mesh of `corners`; `None` if nothing of it can be drawn.
+    /// The mesh of `corners`; `None` if nothing of it can be drawn. Replaces their coordinate
+    /// indices by numbers, or takes them.
     pub fn assemble(
         &mut self,
-        mut corners: Corners,
+        corners: &mut Corners,
         topology: Topology,
         attributes: &Attributes<'_>,
         job: &Job<'_>,
@@ -55,22 +59,40 @@ impl Assembler {
         let mut made = std::mem::take(&mut self.made_normals);
         let coordinate_count = attributes.coordinate_count();
         self.number_coordinates(&mut corners.coordinates, coordinate_count, &mut used);
-        let (origin, positions, bounds) = positions(attributes, &used);
+        let is_list = topology != Topology::Triangles || corners.is_triangle_list();
+        self.points.clear();
+        if !is_list {
+            self.find_points(attributes, &used);
+        }
+        let mut positions = std::mem::take(&mut self.positions);
+        let (origin, bounds) = if self.points.is_empty() {
+            let points = used.iter().map(|&i| coordinate(attributes, i));
+            fill_positions(points, &mut positions)
+        } else {
+            fill_positions(self.points.iter().copied(), &mut positions)
+        };
         let words = bytemuck::cast_slice(&positions);
         let group_count = self.welder.weld(words, 3, &mut self.groups);
-        let is_list = topology != Topology::Triangles || corners.is_triangle_list();
         if !is_list {
-            self.triangulate(&corners, attributes, job, &used, remarks);
+            self.triangulate(corners, attributes, job, remarks);
         }
         let clockwise = attributes.ordering == Ordering::Clockwise;
         // Normals are made for faces only; lines and points are lit if the file gives them some.
-        let given = job.lit && enough(attributes, &corners, &used, remarks);
+        let given = job.lit && enough(attributes, corners, &used, remarks);
         let wants_normals = given || (job.lit && topology == Topology::Triangles);
         if wants_normals && !given {
+            self.find_points(attributes, &used);
             let groups = (&self.groups[..], group_count);
             let groups = corners.by_position.then_some(groups);
-            let maker = &mut self.normal_maker;
-            maker.make(&corners, attributes, &used, groups, clockwise, &mut made);
+            let crease_angle_rad = attributes.crease_angle_rad;
+            self.normal_maker.make(
+                corners,
+                &self.points,
+                groups,
+                crease_angle_rad,
+                clockwise,
+                &mut made,
+            );
         }
         let values = Values {
             used: &used,
@@ -104,37 +126,44 @@ impl Assembler {
             // Each coordinate is one vertex; any corner that uses it shows its values.
             self.corner_of.resize(used.len(), 0);
             for (i, &number) in corners.coordinates.iter().enumerate().rev() {
-                self.corner_of[number as usize] = i;
+                self.corner_of[number as usize] = i as u32;
             }
             values.fill(&mut mesh, &self.corner_of);
-            mesh.positions = positions;
+            mesh.positions = given_away(&mut positions);
             mesh.indices = match is_list {
-                true => std::mem::take(&mut corners.coordinates),
+                true => given_away(&mut corners.coordinates),
                 false => self.triangle_indices(&corners.coordinates),
             };
         } else {
-            self.weld(&values);
-            for (i, &vertex) in self.vertex_of.iter().enumerate() {
-                if vertex as usize == self.corner_of.len() {
-                    self.corner_of.push(i);
-                }
-            }
+            self.weld(&values, group_count);
             values.fill(&mut mesh, &self.corner_of);
-            let position = |&corner: &usize| positions[corners.coordinates[corner] as usize];
+            let number_of = |&corner: &u32| corners.coordinates[corner as usize] as usize;
+            let position = |corner| positions[number_of(corner)];
             mesh.positions = self.corner_of.iter().map(position).collect();
             mesh.indices = match is_list {
                 true => self.vertex_of.clone(),
                 false => self.triangle_indices(&self.vertex_of),
             };
         }
+        self.positions = positions;
         self.used = used;
         self.made_normals = made;
         if topology == Topology::Triangles {
             drop_collapsed(&mut mesh);
             let by_normals = given && attributes.ordering == Ordering::Unknown;
-            turn(&mut mesh, clockwise, by_normals);
+            if clockwise || by_normals {
+                turn(&mut mesh, clockwise);
+            }
         }
         (!mesh.indices.is_empty()).then_some(mesh)
+    }
+
+    /// Looks up the numbered coordinates, unless that was done.
+    fn find_points(&mut self, attributes: &Attributes<'_>, used: &[u32]) {
+        if self.points.is_empty() {
+            let points = used.iter().map(|&i| coordinate(attributes, i));
+            self.points.extend(points);
+        }
     }
 
     /// The triangles' corners, each replaced by what `map` has for it.
@@ -167,7 +196,6 @@ impl Assembler {
         corners: &Corners,
         attributes: &Attributes<'_>,
         job: &Job<'_>,
-        used: &[u32],
         remarks: &mut Remarks,
     ) {
         self.triangles.clear();
@@ -182,12 +210,18 @@ impl Assembler {
                 self.triangles.extend(fan);
                 continue;
             }
-            self.loop_points.clear();
-            let at = |&n: &u32| coordinate(attributes, used[n as usize]);
+            let at = |n: u32| self.points[n as usize];
             let numbers = &corners.coordinates[range];
-            self.loop_points.extend(numbers.iter().map(at));
             let begin = self.triangles.len();
-            let points = &self.loop_points;
+            let quad;
+            let points: &[DVec3] = if let &[a, b, c, d] = numbers {
+                quad = [at(a), at(b), at(c), at(d)];
+                &quad
+            } else {
+                self.loop_points.clear();
+                self.loop_points.extend(numbers.iter().map(|&n| at(n)));
+                &self.loop_points
+            };
             let outcome = self.triangulator.triangulate(points, &mut self.triangles);
             for triangle in &mut self.triangles[begin..] {
                 *triangle = triangle.map(|i| i + first);
@@ -210,21 +244,35 @@ impl Assembler {
         }
     }
 
-    /// Finds the vertex of each corner: corners with equal values share one.
-    fn weld(&mut self, values: &Values<'_>) {
+    /// Finds the vertex of each corner, and a corner of each vertex: corners with equal values
+    /// share one.
+    fn weld(&mut self, values: &Values<'_>, group_count: usize) {
+        if let Some(normals) = values.made_normals_only() {
+            // The usual case of generated normals: few in each place, and never NaN.
+            let groups = &self.groups;
+            let welded = self.welder.weld_in_groups(
+                values.numbers.iter().map(|&number| groups[number as usize]),
+                group_count,
+                |i, j| normals[i as usize] == normals[j as usize],
+                &mut self.vertex_of,
+                &mut self.corner_of,
+            );
+            if welded {
+                return;
+            }
+        }
+        self.weld_by_words(values);
+        self.corner_of.clear();
+        for (&vertex, corner) in self.vertex_of.iter().zip(0..) {
+            if vertex as usize == self.corner_of.len() {
+                self.corner_of.push(corner);
+            }
+        }
+    }
+
+    fn weld_by_words(&mut self, values: &Values<'_>) {
         self.words.clear();
         let corners = values.numbers.iter().zip(0..);
-        if let Some(normals) = values.made_normals_only() {
-            // The usual case of generated normals, without a question a corner.
-            self.words.reserve(4 * normals.len());
-            for (&number, [x, y, z]) in values.numbers.iter().zip(normals) {
-                let group = self.groups[number as usize];
-                self.words
-                    .extend([group, key_bits(*x), key_bits(*y), key_bits(*z)]);
-            }
-            self.welder.weld(&self.words, 4, &mut self.vertex_of);
-            return;
-        }
         let mut stride = 0;
         for (&number, corner) in corners {
             self.words.push(self.groups[number as usize]);
@@ -238,19 +286,33 @@ impl Assembler {
     }
 }
 
-/// The local origin, the positions relative to it, and the box around them.
-fn positions(attributes: &Attributes<'_>, used: &[u32]) -> (DVec3, Vec<[f32; 3]>, Aabb) {
-    let at = |&i: &u32| coordinate(attributes, i);
+/// The local origin of points, and the box around them; `positions` gets them relative to it.
+fn fill_positions(
+    points: impl ExactSizeIterator<Item = DVec3> + Clone,
+    positions: &mut Vec<[f32; 3]>,
+) -> (DVec3, Aabb) {
     let mut bounds = Aabb::EMPTY;
-    used.iter().for_each(|i| bounds.include(at(i)));
+    points.clone().for_each(|p| bounds.include(p));
     let origin = local_origin(&bounds);
     // Adding zero turns -0 into +0, so that equal positions have equal bits.
     let store = |p: DVec3| {
         let limit = DVec3::splat(f64::from(f32::MAX));
         ((p - origin).clamp(-limit, limit).as_vec3() + Vec3::ZERO).to_array()
     };
-    let positions = used.iter().map(|i| store(at(i))).collect();
-    (origin, positions, bounds)
+    positions.clear();
+    positions.reserve_exact(points.len());
+    positions.extend(points.map(store));
+    (origin, bounds)
+}
+
+/// The values of a scratch array as one of exactly their size: given away if that is its size,
+/// copied if it is larger and may serve on.
+fn given_away<T: Copy>(scratch: &mut Vec<T>) -> Vec<T> {
+    if scratch.capacity() == scratch.len() {
+        std::mem::take(scratch)
+    } else {
+        scratch.clone()
+    }
 }
 
 /// A coordinate of the source, which is known to exist.
@@ -332,7 +394,7 @@ fn drop_unused(mesh: &mut Mesh) {
 
 /// Makes front faces counter-clockwise: all are turned if the source says clockwise; where it
 /// says nothing and gives normals, a triangle is turned if it faces against them.
-fn turn(mesh: &mut Mesh, clockwise: bool, by_normals: bool) {
+fn turn(mesh: &mut Mesh, clockwise: bool) {
     let positions = &mesh.positions;
     let normals = &mesh.normals;
     let faces_away = |t: &[u32; 3]| {
@@ -341,7 +403,7 @@ fn turn(mesh: &mut Mesh, clockwise: bool, by_normals: bool) {
         (b - a).cross(c - a).dot(n.as_dvec3()) < 0.0
     };
     for t in mesh.indices.as_chunks_mut::<3>().0 {
-        if clockwise || (by_normals && faces_away(t)) {
+        if clockwise || faces_away(t) {
             t.swap(1, 2);
         }
     }

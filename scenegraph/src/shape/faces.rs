@@ -65,6 +65,24 @@ impl Corners {
     }
 }
 
+/// Arrays whose memory can be used again.
+#[derive(Default)]
+pub struct Spare {
+    coordinates: Vec<u32>,
+    ends: Vec<u32>,
+}
+
+impl From<Corners> for Spare {
+    fn from(mut corners: Corners) -> Self {
+        corners.coordinates.clear();
+        corners.ends.clear();
+        Self {
+            coordinates: corners.coordinates,
+            ends: corners.ends,
+        }
+    }
+}
+
 /// Where a corner is, in all ways that a binding may ask for.
 #[derive(Clone, Copy, Default)]
 pub struct Spot {
@@ -190,6 +208,15 @@ impl<'g> Collector<'g> {
         }
     }
 
+    /// Fills these arrays, which are empty.
+    fn with(self, spare: Spare) -> Self {
+        Self {
+            coordinates: spare.coordinates,
+            ends: spare.ends,
+            ..self
+        }
+    }
+
     /// Whether a coordinate index can be used.
     pub fn is_valid(&self, index: i64) -> bool {
         (0..self.coordinate_count as i64).contains(&index)
@@ -251,9 +278,14 @@ impl<'g> Collector<'g> {
 }
 
 /// The faces of a polygon shape; `None` if it has none.
-pub fn faces(job: &Job<'_>, attributes: &Attributes<'_>, remarks: &mut Remarks) -> Option<Corners> {
+pub fn faces(
+    job: &Job<'_>,
+    attributes: &Attributes<'_>,
+    spare: Spare,
+    remarks: &mut Remarks,
+) -> Option<Corners> {
     let corners = match job.class {
-        Class::IndexedFaceSet => indexed_faces(attributes, remarks),
+        Class::IndexedFaceSet => indexed_faces(attributes, spare, remarks),
         Class::FaceSet => face_set(attributes, remarks),
         Class::IndexedTriangleStripSet => indexed_strips(attributes, remarks),
         Class::TriangleStripSet => strips(attributes, remarks),
@@ -287,9 +319,9 @@ fn too_small(attributes: &Attributes<'_>, remarks: &mut Remarks) {
     );
 }
 
-fn indexed_faces(attributes: &Attributes<'_>, remarks: &mut Remarks) -> Corners {
+fn indexed_faces(attributes: &Attributes<'_>, spare: Spare, remarks: &mut Remarks) -> Corners {
     let list = attributes.node.ints("coordIndex");
-    let mut collector = Collector::new(attributes, true, Parts::AreFaces);
+    let mut collector = Collector::new(attributes, true, Parts::AreFaces).with(spare);
     let plain = collector.is_plain();
     let count = collector.coordinate_count as u64;
     collector.reserve(list.len() - list.len() / 4);

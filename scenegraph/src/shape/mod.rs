@@ -65,6 +65,8 @@ pub struct Made {
 pub struct ShapeMaker {
     cache: FxHashMap<MeshKey, Option<Made>>,
     assembler: Assembler,
+    /// The arrays of an earlier shape, for the next one to fill.
+    spare: faces::Spare,
     bytes: usize,
 }
 
@@ -177,23 +179,27 @@ impl ShapeMaker {
                     .and_then(|m| outline::styled_primitive(m, job.style))
             }
             Class::LineSet | Class::IndexedLineSet => {
-                let segments = lines::segments(job, attributes, remarks);
+                let mut segments = lines::segments(job, attributes, remarks);
                 self.assembler
-                    .assemble(segments, Topology::Lines, attributes, job, remarks)
+                    .assemble(&mut segments, Topology::Lines, attributes, job, remarks)
             }
             Class::PointSet
             | Class::IndexedPointSet
             | Class::MarkerSet
             | Class::IndexedMarkerSet => {
-                let points = lines::points(job, attributes, remarks);
+                let mut points = lines::points(job, attributes, remarks);
                 self.assembler
-                    .assemble(points, Topology::Points, attributes, job, remarks)
+                    .assemble(&mut points, Topology::Points, attributes, job, remarks)
             }
             _ => {
-                let faces = faces::faces(job, attributes, remarks)?;
-                let (corners, topology) = outline::styled(faces, job.style);
-                self.assembler
-                    .assemble(corners, topology, attributes, job, remarks)
+                let spare = std::mem::take(&mut self.spare);
+                let faces = faces::faces(job, attributes, spare, remarks)?;
+                let (mut corners, topology) = outline::styled(faces, job.style);
+                let mesh =
+                    self.assembler
+                        .assemble(&mut corners, topology, attributes, job, remarks);
+                self.spare = corners.into();
+                mesh
             }
         }
     }

@@ -3,8 +3,6 @@
 use geometry::normal::{Corners as Joined, CreaseNormals, face_normal};
 use glam::DVec3;
 
-use super::assemble::coordinate;
-use super::attributes::Attributes;
 use super::faces::Corners;
 
 /// Makes normals; holds scratch memory only.
@@ -17,37 +15,40 @@ pub struct NormalMaker {
 }
 
 impl NormalMaker {
-    /// Fills `normals` with one for each corner. Corners meet where their coordinate index is the same, or,
-    /// with `groups`, where their positions are (`groups` gives the group of each numbered
-    /// coordinate).
+    /// Fills `normals` with one for each corner. Corners meet where their numbered coordinate, one
+    /// of `points`, is the same, or, with `groups`, where their positions are (`groups` gives the
+    /// group of each numbered coordinate).
     pub fn make(
         &mut self,
         corners: &Corners,
-        attributes: &Attributes<'_>,
-        used: &[u32],
+        points: &[DVec3],
         groups: Option<(&[u32], usize)>,
+        crease_angle_rad: f64,
         clockwise: bool,
         normals: &mut Vec<[f32; 3]>,
     ) {
         self.face_normals.clear();
         self.corner_face.clear();
         for range in corners.faces() {
-            self.loop_points.clear();
-            let numbers = &corners.coordinates[range.clone()];
-            self.loop_points.extend(
-                numbers
-                    .iter()
-                    .map(|&n| coordinate(attributes, used[n as usize])),
-            );
-            let normal = face_normal(&self.loop_points);
+            let at = |n: u32| points[n as usize];
+            // Arrays of known length take no loops.
+            let normal = match corners.coordinates[range.clone()] {
+                [a, b, c] => face_normal(&[at(a), at(b), at(c)]),
+                [a, b, c, d] => face_normal(&[at(a), at(b), at(c), at(d)]),
+                ref numbers => {
+                    self.loop_points.clear();
+                    self.loop_points.extend(numbers.iter().map(|&n| at(n)));
+                    face_normal(&self.loop_points)
+                }
+            };
             let face = self.face_normals.len() as u32;
             self.face_normals
                 .push(if clockwise { -normal } else { normal });
-            self.corner_face.extend(range.map(|_| face));
+            self.corner_face.resize(range.end, face);
         }
         let by_position: Vec<u32>;
         let (corner_group, group_count) = match groups {
-            None => (&corners.coordinates[..], used.len()),
+            None => (&corners.coordinates[..], points.len()),
             Some((groups, count)) => {
                 by_position = corners
                     .coordinates
@@ -66,7 +67,7 @@ impl NormalMaker {
         let crease_angle_rad = if corners.always_smooth {
             std::f64::consts::PI
         } else {
-            attributes.crease_angle_rad
+            crease_angle_rad
         };
         self.creases.compute(&joined, crease_angle_rad, normals);
     }

@@ -75,17 +75,23 @@ impl Values<'_> {
     }
 
     /// Fills all but positions and indices: vertex `i` has the values of corner `corner_of[i]`.
-    pub fn fill(&self, mesh: &mut Mesh, corner_of: &[usize]) {
-        if !matches!(self.normals, Normals::None) {
-            let normal = |&c: &usize| self.normal(c).unwrap_or([0.0, 0.0, 1.0]);
-            mesh.normals = corner_of.iter().map(normal).collect();
+    pub fn fill(&self, mesh: &mut Mesh, corner_of: &[u32]) {
+        match self.normals {
+            Normals::None => {}
+            Normals::Made(list) => {
+                mesh.normals = corner_of.iter().map(|&c| list[c as usize]).collect();
+            }
+            Normals::Given(..) => {
+                let normal = |&c: &u32| self.normal(c as usize).unwrap_or([0.0, 0.0, 1.0]);
+                mesh.normals = corner_of.iter().map(normal).collect();
+            }
         }
         if self.texcoords.is_some() {
-            let texcoord = |&c: &usize| self.texcoord(c).unwrap_or_default();
+            let texcoord = |&c: &u32| self.texcoord(c as usize).unwrap_or_default();
             mesh.texcoords = corner_of.iter().map(texcoord).collect();
         }
         if self.colors.is_some() {
-            let color = |&c: &usize| self.color(c).unwrap_or_default();
+            let color = |&c: &u32| self.color(c as usize).unwrap_or_default();
             mesh.colors_srgb = corner_of.iter().map(color).collect();
         }
     }

@@ -10,7 +10,7 @@ use iv_parser::{Diagnostic, Dialect, Encoding, Header};
 use scenegraph::{Geometry, ResolveOptions};
 
 use super::inputs::Input;
-use super::model;
+use super::{bytes, model};
 
 pub use measure::{Content, TextureKind};
 
@@ -61,7 +61,7 @@ pub fn of(input: &Input, search: &[PathBuf]) -> Info {
 }
 
 fn content(info: &mut Info, search: &[PathBuf]) -> Result<Content, String> {
-    let bytes = model::read(&info.path)?;
+    let bytes = bytes::read(&info.path)?;
     info.bytes = bytes.len() as u64;
     let files = model::file_loader(&info.path, search);
     let mut graph = model::graph(&bytes, &info.path, &files);
