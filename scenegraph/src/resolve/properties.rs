@@ -55,7 +55,13 @@ impl Walk<'_> {
                 state.texcoord_binding =
                     Binding::from_word(node.word("value"), Binding::PerVertexIndexed);
             }
-            Class::Material => material(node, id, state),
+            Class::Material => {
+                let file = &graph.files[node.pos.file as usize];
+                material(node, id, state);
+                if file.header.dialect == Dialect::Vrml1 {
+                    light_beforehand(node, id, state);
+                }
+            }
             Class::BaseColor => {
                 if !node.numbers("rgb").is_empty() && !node.is_ignored("rgb") {
                     state.material.diffuse = ColorSource::Base(id);
@@ -179,6 +185,24 @@ fn material(node: &Node, id: NodeId, state: &mut State) {
     if sets("shininess") {
         material.shininess = node.number("shininess").clamp(0.0, 1.0);
     }
+}
+
+/// VRML 1 has no LightModel. There a Material says that its shapes are lit beforehand by having
+/// more emissive than diffuse colours (Coin's SoMaterial::getMaterialType), or by reflecting
+/// nothing at all (VRML 1.0, Material); any other Material says that they are lit.
+fn light_beforehand(node: &Node, id: NodeId, state: &mut State) {
+    let values = |field: &str| (!node.is_ignored(field)).then(|| node.numbers(field));
+    let is_black = |field: &str| values(field).is_some_and(|v| v.iter().all(|&v| v == 0.0));
+    let emissive = values("emissiveColor").unwrap_or(&[]);
+    let diffuse = values("diffuseColor").unwrap_or(&[]);
+    let glows_only =
+        !is_black("emissiveColor") && is_black("diffuseColor") && is_black("specularColor");
+    state.light_model = if emissive.len() > diffuse.len() || (glows_only && !emissive.is_empty()) {
+        state.material.diffuse = ColorSource::Emissive(id);
+        LightModel::BaseColor
+    } else {
+        LightModel::Phong
+    };
 }
 
 fn shape_hints(node: &Node, state: &mut State, vrml1: bool) {

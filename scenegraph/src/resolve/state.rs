@@ -69,6 +69,8 @@ pub enum ColorSource {
     Default,
     /// `Material.diffuseColor`, `Material.transparency`.
     Material(NodeId),
+    /// `Material.emissiveColor` of a material that is lit beforehand.
+    Emissive(NodeId),
     /// `BaseColor.rgb`.
     Base(NodeId),
     /// `PackedColor.orderedRGBA` or `VertexProperty.orderedRGBA`.

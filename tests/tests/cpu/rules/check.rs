@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use glam::DVec3;
+use scenegraph::scene::{LightModel, Material};
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 use tests::measure::{Corner, Primitive, primitives, totals};
 
@@ -26,6 +27,8 @@ pub struct Rule {
     pub normal: Option<[f64; 3]>,
     /// Transparency of every corner.
     pub transparency: Option<f64>,
+    /// Whether every shape is unlit.
+    pub unlit: Option<bool>,
     /// Triangles, lines, points.
     pub counts: Option<[usize; 3]>,
     /// Area of all triangles.
@@ -49,6 +52,7 @@ pub const RULE: Rule = Rule {
     texcoords: &[],
     normal: None,
     transparency: None,
+    unlit: None,
     counts: None,
     area: None,
     bounds: None,
@@ -90,6 +94,11 @@ pub fn check(rule: &Rule) -> Result<(), String> {
             .first()
             .map_or(Vec::new(), |n| n.notes.iter().map(|note| &**note).collect());
         same("notes", &notes, &rule.notes.to_vec())?;
+    }
+    if let Some(unlit) = rule.unlit {
+        let is_unlit = |m: &Material| m.light_model == LightModel::BaseColor;
+        let ours: Vec<bool> = scene.materials.iter().map(is_unlit).collect();
+        same("unlit", &ours, &vec![unlit; ours.len().max(1)])?;
     }
     let drawn: Vec<Primitive> = primitives(scene).collect();
     for corner in drawn.iter().flat_map(|p| &p.corners) {
