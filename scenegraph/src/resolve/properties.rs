@@ -96,6 +96,9 @@ impl Walk<'_> {
                 }
             }
             Class::DrawStyle => draw_style(node, state),
+            // Picture, wrapping and model are one element of the state, which the picture's fields
+            // stand for (SGI's SoTexture2).
+            Class::Texture2 if node.is_ignored("filename") || node.is_ignored("image") => {}
             Class::Texture2 => {
                 let image = matches!(node.value("image"), FieldValue::Image(Some(_)));
                 let file = node.text("filename").is_some_and(|name| !name.is_empty());
@@ -105,6 +108,7 @@ impl Walk<'_> {
             Class::Texture2Transform => {
                 state.texture_transform *= texture_transform(node);
             }
+            Class::TextureMatrixTransform if node.is_ignored("matrix") => {}
             Class::TextureMatrixTransform => {
                 if let Ok(m) = <[f64; 16]>::try_from(node.numbers("matrix")) {
                     state.texture_transform *= DMat3::from_cols(
@@ -121,24 +125,44 @@ impl Walk<'_> {
     }
 
     fn environment(&mut self, node: &Node) {
-        let fog_type = match node.word("fogType") {
-            "HAZE" => Some(FogType::Haze),
-            "FOG" => Some(FogType::Fog),
-            "SMOKE" => Some(FogType::Smoke),
+        let before = &self.state.environment;
+        let fog = match node.word("fogType") {
+            _ if node.is_ignored("fogType") => before.fog,
+            "HAZE" => Some(fog(node, FogType::Haze, before)),
+            "FOG" => Some(fog(node, FogType::Fog, before)),
+            "SMOKE" => Some(fog(node, FogType::Smoke, before)),
             _ => None,
         };
+        let triple = |field: &str, before: [f64; 3]| {
+            if node.is_ignored(field) {
+                before
+            } else {
+                node.triple(field)
+            }
+        };
         let environment = Environment {
-            ambient_intensity: node.number("ambientIntensity"),
-            ambient_color_srgb: node.triple("ambientColor"),
-            attenuation: node.triple("attenuation"),
-            fog: fog_type.map(|fog_type| Fog {
-                fog_type,
-                color_srgb: node.triple("fogColor"),
-                visibility: node.number("fogVisibility"),
-            }),
+            ambient_intensity: if node.is_ignored("ambientIntensity") {
+                before.ambient_intensity
+            } else {
+                node.number("ambientIntensity")
+            },
+            ambient_color_srgb: triple("ambientColor", before.ambient_color_srgb),
+            attenuation: triple("attenuation", before.attenuation),
+            fog,
         };
         self.state.environment_id = self.builder.environment(&environment);
         self.state.environment = environment;
+    }
+}
+
+/// Fog of an Environment; colour and visibility marked as ignored are those of the fog before it.
+fn fog(node: &Node, fog_type: FogType, before: &Environment) -> Fog {
+    let kept = |field: &str| before.fog.filter(|_| node.is_ignored(field));
+    Fog {
+        fog_type,
+        color_srgb: kept("fogColor").map_or_else(|| node.triple("fogColor"), |f| f.color_srgb),
+        visibility: kept("fogVisibility")
+            .map_or_else(|| node.number("fogVisibility"), |f| f.visibility),
     }
 }
 
@@ -248,15 +272,21 @@ fn draw_style(node: &Node, state: &mut State) {
     }
 }
 
-/// Scale, then rotate, about `center`; then translate (Coin's SoTexture2Transform).
+/// Scale, then rotate, about `center`; then translate (Coin's SoTexture2Transform). A field marked
+/// as ignored does nothing.
 fn texture_transform(node: &Node) -> DMat3 {
-    let pair = |field: &str| match node.numbers(field) {
-        [x, y, ..] => DVec2::new(*x, *y),
-        _ => DVec2::ZERO,
+    let pair = |field: &str, without: DVec2| match node.numbers(field) {
+        [x, y, ..] if !node.is_ignored(field) => DVec2::new(*x, *y),
+        _ => without,
     };
-    let center = pair("center");
-    DMat3::from_translation(pair("translation") + center)
-        * DMat3::from_angle(node.number("rotation"))
-        * DMat3::from_scale(pair("scaleFactor"))
+    let center = pair("center", DVec2::ZERO);
+    let angle_rad = if node.is_ignored("rotation") {
+        0.0
+    } else {
+        node.number("rotation")
+    };
+    DMat3::from_translation(pair("translation", DVec2::ZERO) + center)
+        * DMat3::from_angle(angle_rad)
+        * DMat3::from_scale(pair("scaleFactor", DVec2::ONE))
         * DMat3::from_translation(-center)
 }

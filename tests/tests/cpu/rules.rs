@@ -30,7 +30,7 @@ fn every_row_can_fail() {
     for rule in table::RULES.iter().chain(more::RULES) {
         let other = check::Rule {
             text: "Separator { Cube { width 7 } Sphere { } }",
-            ..*rule
+            ..rule.clone()
         };
         assert!(
             check::check(&other).is_err(),

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use glam::DVec3;
-use scenegraph::scene::{LightModel, Material};
+use scenegraph::scene::{Environment, Instance, LightModel, Material};
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 use tests::measure::{Corner, Primitive, primitives, totals};
 
 /// A rule. What is empty or `None` is not asked, but for `codes`, which are all there must be.
+#[derive(Clone)]
 pub struct Rule {
     /// In the guide's list.
     pub number: u8,
@@ -29,6 +30,8 @@ pub struct Rule {
     pub transparency: Option<f64>,
     /// Whether every shape is unlit.
     pub unlit: Option<bool>,
+    /// The environment of every shape.
+    pub environment: Option<Environment>,
     /// Triangles, lines, points.
     pub counts: Option<[usize; 3]>,
     /// Area of all triangles.
@@ -53,6 +56,7 @@ pub const RULE: Rule = Rule {
     normal: None,
     transparency: None,
     unlit: None,
+    environment: None,
     counts: None,
     area: None,
     bounds: None,
@@ -99,6 +103,11 @@ pub fn check(rule: &Rule) -> Result<(), String> {
         let is_unlit = |m: &Material| m.light_model == LightModel::BaseColor;
         let ours: Vec<bool> = scene.materials.iter().map(is_unlit).collect();
         same("unlit", &ours, &vec![unlit; ours.len().max(1)])?;
+    }
+    if let Some(environment) = &rule.environment {
+        let of = |i: &Instance| &scene.environments[i.environment.index()];
+        let ours: Vec<&Environment> = scene.instances.iter().map(of).collect();
+        same("environment", &ours, &vec![environment; ours.len().max(1)])?;
     }
     let drawn: Vec<Primitive> = primitives(scene).collect();
     for corner in drawn.iter().flat_map(|p| &p.corners) {

@@ -1,5 +1,7 @@
 //! Rules that stand apart from the numbered list; their number is 0.
 
+use scenegraph::scene::{Environment, Fog, FogType};
+
 use super::check::{RULE, Rule};
 
 const RED: [f64; 3] = [1.0, 0.0, 0.0];
@@ -77,6 +79,60 @@ pub const RULES: &[Rule] = &[
         draws: TRIANGLE,
         colors: &[&[GREY; 3]],
         unlit: Some(false),
+        ..RULE
+    },
+    Rule {
+        name: "a texture whose picture is marked as ignored leaves the one before it",
+        text: "Separator { Texture2 { image 1 1 1 0x80 } Texture2 { filename ~ }
+            Coordinate3 { point [ 0 0 0, 2 0 0, 0 2 0 ] }
+            TextureCoordinate2 { point [ 1 0, 2 0, 1 3 ] }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } }",
+        draws: TRIANGLE,
+        texcoords: &[&[[1.0, 0.0], [2.0, 0.0], [1.0, 3.0]]],
+        ..RULE
+    },
+    Rule {
+        name: "ignored fields of texture transforms do nothing",
+        text: "Separator { Texture2 { image 1 1 1 0x80 }
+            Texture2Transform { translation 5 5 ~ rotation 2 ~ scaleFactor 9 9 ~ }
+            Texture2Transform { center 7 7 ~ scaleFactor 2 2 }
+            TextureMatrixTransform { matrix 3 0 0 0  0 3 0 0  0 0 1 0  4 4 0 1 ~ }
+            Coordinate3 { point [ 0 0 0, 2 0 0, 0 2 0 ] }
+            TextureCoordinate2 { point [ 1 0, 2 0, 1 3 ] }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } }",
+        draws: TRIANGLE,
+        texcoords: &[&[[2.0, 0.0], [4.0, 0.0], [2.0, 6.0]]],
+        ..RULE
+    },
+    Rule {
+        name: "ignored fields of transforms do nothing",
+        text: "Separator { RotationXYZ { axis Z angle 1 ~ } RotationXYZ { axis Y ~ angle 1 }
+            Shuttle { translation0 1 1 1 ~ } Units { units FEET ~ }
+            Coordinate3 { point [ 0 0 0, 2 0 0, 0 2 0 ] }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } }",
+        draws: TRIANGLE,
+        codes: &["hidden"],
+        ..RULE
+    },
+    Rule {
+        name: "ignored fields of an Environment keep what was before",
+        text: "Separator {
+            Environment { ambientIntensity 0.5 ambientColor 1 0 0 attenuation 1 2 3
+                fogType FOG fogColor 0 0 1 fogVisibility 40 }
+            Environment { ambientIntensity 0.9 ~ ambientColor 0 1 0 ~ attenuation 4 5 6
+                fogType SMOKE fogColor 0 1 0 ~ fogVisibility 50 }
+            Environment { ambientIntensity ~ ambientColor ~ attenuation 7 8 9 ~ fogType ~ }
+            Cube { } }",
+        environment: Some(Environment {
+            ambient_intensity: 0.5,
+            ambient_color_srgb: RED,
+            attenuation: [4.0, 5.0, 6.0],
+            fog: Some(Fog {
+                fog_type: FogType::Smoke,
+                color_srgb: BLUE,
+                visibility: 50.0,
+            }),
+        }),
         ..RULE
     },
 ];
