@@ -6,6 +6,7 @@ use iv_parser::Dialect;
 use crate::graph::{FieldValue, Node, NodeId};
 use crate::registry::Class;
 use crate::scene::{Environment, Fog, FogType, LightModel};
+use crate::shape::has_texcoords;
 
 use super::state::{Binding, ColorSource, Ordering, State, Style, TexCoords};
 use super::walk::Walk;
@@ -27,8 +28,8 @@ impl Walk<'_> {
                     state.normals = (!node.numbers("vector").is_empty()).then_some(id);
                 }
             }
-            Class::TextureCoordinate2 if node.is_ignored("point") => {}
-            Class::TextureCoordinate2 => {
+            Class::TextureCoordinate2 | Class::TextureCoordinate3 if node.is_ignored("point") => {}
+            Class::TextureCoordinate2 | Class::TextureCoordinate3 => {
                 let given = !node.numbers("point").is_empty();
                 state.texcoords = if given {
                     TexCoords::List(id)
@@ -176,7 +177,7 @@ fn vertex_property(node: &Node, id: NodeId, state: &mut State) {
         state.normal_binding =
             Binding::from_word(node.word("normalBinding"), Binding::PerVertexIndexed);
     }
-    if !node.numbers("texCoord").is_empty() {
+    if has_texcoords(node) {
         state.texcoords = TexCoords::List(id);
     }
     if !node.ints("orderedRGBA").is_empty() {

@@ -95,7 +95,7 @@ pub struct MaterialState {
 pub enum TexCoords {
     /// The shape's bounding box.
     Default,
-    /// `TextureCoordinate2` or `VertexProperty`.
+    /// `TextureCoordinate2`, `TextureCoordinate3` or `VertexProperty`.
     List(NodeId),
     /// `TextureCoordinatePlane` or `TextureCoordinateObject`.
     Function(NodeId),

@@ -135,4 +135,41 @@ pub const RULES: &[Rule] = &[
         }),
         ..RULE
     },
+    Rule {
+        name: "texture coordinates in space give s and t, undivided",
+        text: "Separator { Texture2 { image 1 1 1 0x80 }
+            Coordinate3 { point [ 0 0 0, 2 0 0, 0 2 0 ] }
+            TextureCoordinate3 { point [ 1 0 2, 2 0 4, 1 3 8 ] }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } }",
+        draws: TRIANGLE,
+        texcoords: &[&[[1.0, 0.0], [2.0, 0.0], [1.0, 3.0]]],
+        ..RULE
+    },
+    Rule {
+        name: "so do those of a VertexProperty in the state",
+        text: "Separator { Texture2 { image 1 1 1 0x80 } VertexProperty {
+            vertex [ 0 0 0, 2 0 0, 0 2 0 ] texCoord3 [ 1 0 2, 2 0 4, 1 3 8 ] }
+            TextureCoordinate2 { point [ 5 5 ] ~ }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } }",
+        draws: TRIANGLE,
+        texcoords: &[&[[1.0, 0.0], [2.0, 0.0], [1.0, 3.0]]],
+        ..RULE
+    },
+    Rule {
+        name: "and of one in the shape, where it has no others",
+        text: "Separator { Texture2 { image 1 1 1 0x80 } FaceSet { vertexProperty VertexProperty {
+            vertex [ 0 0 0, 2 0 0, 0 2 0 ] texCoord3 [ 1 0 2, 2 0 4, 1 3 8 ] } } }",
+        draws: TRIANGLE,
+        texcoords: &[&[[1.0, 0.0], [2.0, 0.0], [1.0, 3.0]]],
+        ..RULE
+    },
+    Rule {
+        name: "flat texture coordinates go before those in space",
+        text: "Separator { Texture2 { image 1 1 1 0x80 } FaceSet { vertexProperty VertexProperty {
+            vertex [ 0 0 0, 2 0 0, 0 2 0 ] texCoord [ 1 0, 2 0, 1 3 ]
+            texCoord3 [ 9 0 2, 9 0 4, 9 3 8 ] } } }",
+        draws: TRIANGLE,
+        texcoords: &[&[[1.0, 0.0], [2.0, 0.0], [1.0, 3.0]]],
+        ..RULE
+    },
 ];
