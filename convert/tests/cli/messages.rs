@@ -36,7 +36,7 @@ fn exit_codes_and_messages() {
         (
             "fog.iv",
             0,
-            &["fog.iv:2:57: loss[fog]: ", "1 converted, 1 loss, "],
+            &["fog.iv:2:13: loss[fog]: ", "1 converted, 1 loss, "],
         ),
         ("fog.iv --strict", 1, &["loss[fog]"]),
         (

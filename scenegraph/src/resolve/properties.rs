@@ -150,6 +150,7 @@ impl Walk<'_> {
             ambient_color_srgb: triple("ambientColor", before.ambient_color_srgb),
             attenuation: triple("attenuation", before.attenuation),
             fog,
+            pos: node.pos,
         };
         self.state.environment_id = self.builder.environment(&environment);
         self.state.environment = environment;
@@ -254,6 +255,7 @@ fn shape_hints(node: &Node, state: &mut State, vrml1: bool) {
 
 fn draw_style(node: &Node, state: &mut State) {
     let style = &mut state.draw_style;
+    style.pos = node.pos;
     if !node.is_ignored("style") {
         style.style = match node.word("style") {
             "LINES" => Style::Lines,

@@ -119,3 +119,25 @@ fn original_files() {
         }
     }
 }
+
+#[test]
+fn styles_and_environments_know_their_nodes() {
+    let text = "#Inventor V2.1 ascii\n\
+        Cube { }\n\
+        Separator {\n\
+        DrawStyle { lineWidth 3 }\n\
+        Environment { ambientIntensity 1 }\n\
+        Cube { }\n\
+        }\n\
+        DrawStyle { lineWidth 2 }\n\
+        Cube { }";
+    let loader = FileLoader::default();
+    let graph = load(text.as_bytes(), "places.iv", Path::new("."), &loader);
+    let scene = resolve(&graph, &ResolveOptions::default()).scene;
+    let places = scene.instances.iter().map(|i| {
+        let style = scene.materials[i.material.index()].style_pos;
+        let environment = scene.environments[i.environment.index()].pos;
+        (style.line, environment.line)
+    });
+    assert_eq!(places.collect::<Vec<_>>(), [(0, 0), (4, 5), (8, 0)]);
+}

@@ -30,7 +30,7 @@ pub struct Rule {
     pub transparency: Option<f64>,
     /// Whether every shape is unlit.
     pub unlit: Option<bool>,
-    /// The environment of every shape.
+    /// The environment of every shape, but for its place.
     pub environment: Option<Environment>,
     /// Triangles, lines, points.
     pub counts: Option<[usize; 3]>,
@@ -105,9 +105,13 @@ pub fn check(rule: &Rule) -> Result<(), String> {
         same("unlit", &ours, &vec![unlit; ours.len().max(1)])?;
     }
     if let Some(environment) = &rule.environment {
-        let of = |i: &Instance| &scene.environments[i.environment.index()];
-        let ours: Vec<&Environment> = scene.instances.iter().map(of).collect();
-        same("environment", &ours, &vec![environment; ours.len().max(1)])?;
+        let of = |i: &Instance| Environment {
+            pos: environment.pos,
+            ..scene.environments[i.environment.index()].clone()
+        };
+        let ours: Vec<Environment> = scene.instances.iter().map(of).collect();
+        let wanted = vec![environment.clone(); ours.len().max(1)];
+        same("environment", &ours, &wanted)?;
     }
     let drawn: Vec<Primitive> = primitives(scene).collect();
     for corner in drawn.iter().flat_map(|p| &p.corners) {

@@ -1,5 +1,6 @@
 //! Rules that stand apart from the numbered list; their number is 0.
 
+use iv_parser::SourcePos;
 use scenegraph::scene::{Environment, Fog, FogType};
 
 use super::check::{RULE, Rule};
@@ -7,6 +8,13 @@ use super::check::{RULE, Rule};
 const RED: [f64; 3] = [1.0, 0.0, 0.0];
 const BLUE: [f64; 3] = [0.0, 0.0, 1.0];
 const GREY: [f64; 3] = [0.8; 3];
+
+/// Places are not compared.
+const NOWHERE: SourcePos = SourcePos {
+    file: 0,
+    line: 0,
+    column: 0,
+};
 
 /// One triangle, for rules about how something is drawn.
 const TRIANGLE: &[&[[f64; 3]]] = &[&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]]];
@@ -132,6 +140,7 @@ pub const RULES: &[Rule] = &[
                 color_srgb: BLUE,
                 visibility: 50.0,
             }),
+            pos: NOWHERE,
         }),
         ..RULE
     },
