@@ -125,7 +125,7 @@ fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
     make_folder_of(path)?;
     outcome.bytes_out = text
         .write(path)
-        .map_err(|error| format!("{}: {}", path.display(), atomic::cause(&error)))?;
+        .map_err(|error| atomic::cannot_write(path, &error))?;
     outcome.counts = json!({ "nodes": text.node_count() });
     Ok(())
 }
@@ -179,14 +179,18 @@ fn words(error: &convert::Error) -> String {
         convert::Error::Io {
             path: Some(path),
             source,
-        } => format!("{}: {}", path.display(), atomic::cause(source)),
+        } => atomic::cannot_write(path, source),
+        convert::Error::Target { path, reason } => {
+            format!("cannot write {}: {reason}", path.display())
+        }
         other => other.to_string(),
     }
 }
 
 fn make_folder_of(path: &Path) -> Result<(), String> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+    fs::create_dir_all(folder)
+        .map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))
 }
 
 fn counts(report: &Report, instances: usize) -> Value {

@@ -64,7 +64,11 @@ fn a_failed_write_leaves_the_old_file_and_no_other() {
                 .current_dir(place.folder.path()),
         );
         assert_eq!(run.code, 2, "{}", run.err);
-        assert!(run.err.contains("pavilion.iv: error: out."), "{}", run.err);
+        assert!(
+            run.err.contains("pavilion.iv: error: cannot write out."),
+            "{}",
+            run.err
+        );
         assert_eq!(place.files(), before, "{output}");
     }
 }
@@ -112,7 +116,11 @@ fn an_error_names_the_output_and_no_temporary_file() {
     for args in rows {
         let run = place.run(args);
         assert_eq!(run.code, 2, "{args}: {}", run.err);
-        assert!(run.err.contains("error: /proc/a."), "{args}: {}", run.err);
+        assert!(
+            run.err.contains("error: cannot write /proc/a."),
+            "{args}: {}",
+            run.err
+        );
         assert!(!run.err.contains(".ivconvert-"), "{args}: {}", run.err);
     }
 }
