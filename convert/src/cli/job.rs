@@ -116,7 +116,7 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
 fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
     let bytes = model::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
-    let name = outcome.input.display().to_string().into();
+    let name: Arc<str> = outcome.input.display().to_string().into();
     let text = inventor::Text::of(&bytes, &name);
     outcome.diagnostics.clone_from(&text.diagnostics);
     if text.is_unsupported() {
@@ -127,6 +127,8 @@ fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
         .write(path)
         .map_err(|error| atomic::cannot_write(path, &error))?;
     outcome.counts = json!({ "nodes": text.node_count() });
+    let (from, to) = (model::folder_of(&outcome.input), model::folder_of(path));
+    outcome.warnings = text.left_behind(&name, from, to);
     Ok(())
 }
 

@@ -16,6 +16,7 @@ mod messages;
 mod model;
 mod plan;
 mod pool;
+mod references;
 mod report;
 mod screen;
 
