@@ -132,9 +132,10 @@ fn text_in_another_folder_says_what_it_leaves_behind() {
             "a.iv",
             "Separator { Texture2 { filename \"img/wood.png\" } Cube { }\n\
              Texture2 { filename img\\stone.png } Texture2 { filename \"gone.png\" }\n\
-             File { name \"part.iv\" } File { name \"part.iv\" } WWWAnchor { name \"part.iv\" } }",
+             File { name \"part.iv\" } File { name \"part.iv\" } WWWAnchor { name \"web.iv\" } }",
         )
         .model("part.iv", CUBE)
+        .model("web.iv", CUBE)
         .model("both/part.iv", CUBE)
         .file("img/wood.png", "")
         .file("img/stone.png", "")
