@@ -8,6 +8,10 @@ fn exit_codes_and_messages() {
         .model("cube.iv", CUBE)
         .model("use.iv", UNKNOWN_USE)
         .model("fog.iv", FOG)
+        .model(
+            "comma.iv",
+            "Translation { translation 1,5 2,0 3,0 } Cube { }",
+        )
         .model("image.iv", IMAGE)
         .model("empty.iv", "Separator { Label { label \"a\" } }")
         .file("v2.wrl", "#VRML V2.0 utf8\nShape { }\n")
@@ -39,6 +43,14 @@ fn exit_codes_and_messages() {
             &[
                 "fog.iv:2:13: loss[fog]: ",
                 "1 converted to fog.glb, 1 loss, ",
+            ],
+        ),
+        (
+            "comma.iv",
+            0,
+            &[
+                "warning[extra-numbers]",
+                "numbers take a point, not a comma",
             ],
         ),
         ("fog.iv --strict", 1, &["loss[fog]"]),
