@@ -142,7 +142,11 @@ pub(crate) fn node<'a>(
 pub(crate) fn scene(json: &mut Json, scene: &Scene) {
     let default = Environment::default();
     iv(json, |json| {
-        let notable = scene.environments.iter().filter(|e| **e != default);
+        let plain = |e: &Environment| Environment {
+            pos: default.pos,
+            ..e.clone()
+        };
+        let notable = scene.environments.iter().filter(|e| plain(e) != default);
         json.array_unless_empty("environments", notable, |json, environment| {
             json.object(|json| {
                 number(json, "ambientIntensity", environment.ambient_intensity, 0.2);

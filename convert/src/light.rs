@@ -2,8 +2,11 @@
 //!
 //! glTF viewers reflect albedo / pi, Inventor's model reflects albedo; so a directional light has
 //! pi * intensity lux. Point and spot lights fall with the square of the distance in glTF and by
-//! 1 / (a d^2 + b d + c) in Inventor; the candela make both agree at d_ref, the distance to the
-//! centre of the scene's bounds.
+//! 1 / (a d^2 + b d + c) in Inventor; the candela make both agree at one distance, d_ref. Nearer,
+//! glTF is brighter, without bound; farther away it is darker. So d_ref is where Inventor's light
+//! has fallen to half, a d^2 + b d + c = 2 c, as long as that is between the light and the scene's
+//! centre: what a fading light lights is around there. A light that does not fade, or hardly,
+//! is made for the whole scene, and agrees at the scene's centre.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -19,6 +22,9 @@ use crate::json::Json;
 /// Share of the scene's radius within which a light counts as at its centre, where it lights
 /// what is around it: at the distance of the radius.
 const CENTER_SHARE: f64 = 1e-3;
+/// Share of the way to the scene's centre that d_ref is at the least. It bounds the error of a
+/// light whose brightness grows without bound at the light itself (c = 0).
+const NEAREST_SHARE: f64 = 0.25;
 /// Brightness at which the cosine power counts as falling.
 const INNER_CONE_BRIGHTNESS: f64 = 0.9;
 /// The inner cone must be smaller than the outer one; this much of it, at most.
@@ -95,8 +101,8 @@ fn intensity(light: &Light, environment: &Environment, bounds: Option<&Bounds>) 
     };
     let at_reference = location.map_or(1.0, |location| {
         let p_in_world = light.placement.world_from_local.transform_point3(location);
-        let d = reference_distance(p_in_world, bounds);
         let [a, b, c] = environment.attenuation;
+        let d = reference_distance(environment.attenuation, p_in_world, bounds);
         let divisor = a * d * d + b * d + c;
         if divisor > 0.0 {
             d * d / divisor
@@ -112,7 +118,20 @@ fn intensity(light: &Light, environment: &Environment, bounds: Option<&Bounds>) 
     }
 }
 
-fn reference_distance(p_in_world: DVec3, bounds: Option<&Bounds>) -> f64 {
+/// d_ref, in the world.
+fn reference_distance([a, b, c]: [f64; 3], p_in_world: DVec3, bounds: Option<&Bounds>) -> f64 {
+    let centre = distance_to_centre(p_in_world, bounds);
+    // The positive root of a d^2 + b d - c, in the form that does not cancel.
+    let half = 2.0 * c / (b + (b * b + 4.0 * a * c).sqrt());
+    if half >= 0.0 {
+        half.clamp(NEAREST_SHARE * centre, centre)
+    } else {
+        // Factors that are no attenuation.
+        centre
+    }
+}
+
+fn distance_to_centre(p_in_world: DVec3, bounds: Option<&Bounds>) -> f64 {
     let Some(bounds) = bounds else { return 1.0 };
     let (distance, radius) = (p_in_world.distance(bounds.center()), bounds.radius());
     let distance = if distance > CENTER_SHARE * radius {

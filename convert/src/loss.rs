@@ -113,8 +113,10 @@ impl LossKind {
                 "light-attenuation",
                 Approximated,
                 "the brightness of a point or spot light is right at one distance only",
-                "glTF light falls with the square of the distance; it is right at the centre of \
-                 the scene's bounds. The factors are in the light's `extras.iv.attenuation`",
+                "glTF light falls with the square of the distance; it is right where the source's \
+                 light has fallen to half, at least a quarter of the way to the centre of the \
+                 scene's bounds and at most there. The factors are in the light's \
+                 `extras.iv.attenuation`",
             ),
             Self::SpotDropOff => (
                 "spot-drop-off",

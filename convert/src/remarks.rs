@@ -2,7 +2,8 @@
 
 use iv_parser::SourcePos;
 use scenegraph::scene::{
-    Faces, Instance, LightId, LightKind, Material, Scene, TextureModel, Topology, ViewportMapping,
+    Faces, Instance, Light, LightId, LightKind, Material, Scene, TextureModel, Topology,
+    ViewportMapping,
 };
 
 use crate::frame::uniform_scale;
@@ -19,20 +20,18 @@ const AMBIENT_TOLERANCE: f64 = 1e-6;
 pub(crate) struct Remarks<'s> {
     scene: &'s Scene,
     losses: Losses,
-    /// By light set.
-    reached_by_all: Vec<bool>,
+    /// For each light set, the first light that is not in it.
+    not_reached_by: Vec<Option<LightId>>,
 }
 
 impl<'s> Remarks<'s> {
     pub(crate) fn new(scene: &'s Scene) -> Self {
-        let reached_by_all = scene
-            .light_sets
-            .iter()
-            .map(|set| covers(set, scene.lights.len()));
+        let sets = scene.light_sets.iter();
+        let not_reached_by = sets.map(|set| first_missing(set, scene.lights.len()));
         Self {
             scene,
             losses: Losses::default(),
-            reached_by_all: reached_by_all.collect(),
+            not_reached_by: not_reached_by.collect(),
         }
     }
 
@@ -50,39 +49,45 @@ impl<'s> Remarks<'s> {
     ) {
         let pos = instance.placement.pos;
         let material = &self.scene.materials[instance.material.index()];
-        let material_pos = if material.pos.line > 0 {
-            material.pos
-        } else {
-            pos
-        };
         let environment = &self.scene.environments[instance.environment.index()];
         if let Some(fog) = &environment.fog {
+            let fog_type = || format!("{:?}", fog.fog_type);
             self.losses
-                .add(LossKind::Fog, pos, || format!("{:?}", fog.fog_type));
+                .add(LossKind::Fog, known(environment.pos, pos), fog_type);
         }
         if !written.unlit {
-            self.lit_instance(instance, material, material_pos);
+            self.lit_instance(instance, material);
         }
         self.texture(material, written, colors);
-        self.drawing_style(instance, material, material_pos);
+        self.drawing_style(instance, material);
     }
 
-    fn lit_instance(&mut self, instance: &Instance, material: &Material, material_pos: SourcePos) {
+    fn lit_instance(&mut self, instance: &Instance, material: &Material) {
         let pos = instance.placement.pos;
-        if !self.reached_by_all[instance.light_set.index()] {
-            self.losses.add(LossKind::LightScope, pos, String::new);
+        if let Some(light) = self.not_reached_by[instance.light_set.index()] {
+            let light = &self.scene.lights[light.index()];
+            self.losses
+                .add(LossKind::LightScope, light.placement.pos, || name_of(light));
         }
         let environment = &self.scene.environments[instance.environment.index()];
-        let ambient = |channel: usize| {
+        let strongest = |of: &dyn Fn(usize) -> f64| {
             environment.ambient_intensity
-                * environment.ambient_color_srgb[channel]
-                * material.ambient_srgb[channel]
+                * (0..3)
+                    .map(|channel| environment.ambient_color_srgb[channel] * of(channel))
+                    .fold(0.0, f64::max)
         };
-        let ambient = (0..3).map(ambient).fold(0.0, f64::max);
+        let ambient = strongest(&|channel| material.ambient_srgb[channel]);
         if ambient > UNNOTICED_AMBIENT + AMBIENT_TOLERANCE {
-            self.losses.add(LossKind::AmbientLight, material_pos, || {
-                format!("{ambient:.2}")
-            });
+            // The Environment is the cause if it is brighter than Inventor's default.
+            let cause = if strongest(&|_| 1.0) > 0.2 + AMBIENT_TOLERANCE {
+                environment.pos
+            } else {
+                material.pos
+            };
+            self.losses
+                .add(LossKind::AmbientLight, known(cause, pos), || {
+                    format!("{ambient:.2}")
+                });
         }
         let topology = self.scene.meshes[instance.mesh.index()].topology;
         if topology == Topology::Triangles && material.faces == Faces::BothOneSidedLighting {
@@ -112,7 +117,8 @@ impl<'s> Remarks<'s> {
         }
     }
 
-    fn drawing_style(&mut self, instance: &Instance, material: &Material, pos: SourcePos) {
+    fn drawing_style(&mut self, instance: &Instance, material: &Material) {
+        let pos = known(material.style_pos, instance.placement.pos);
         // Inventor's default of 0 is one pixel, too.
         let unusual = |size_px: f64| size_px != 0.0 && size_px != 1.0;
         let topology = self.scene.meshes[instance.mesh.index()].topology;
@@ -166,10 +172,27 @@ impl<'s> Remarks<'s> {
     }
 }
 
-/// Whether the set holds each of `count` lights.
-fn covers(set: &[LightId], count: usize) -> bool {
+/// The place of a cause; that of the shape where values come from nowhere in the source.
+fn known(cause: SourcePos, shape: SourcePos) -> SourcePos {
+    if cause.line > 0 { cause } else { shape }
+}
+
+/// The light as the source calls it, or its class.
+fn name_of(light: &Light) -> String {
+    match (&light.placement.name, &light.kind) {
+        (Some(name), _) => name.to_string(),
+        (None, LightKind::Directional { .. }) => "DirectionalLight".to_owned(),
+        (None, LightKind::Point { .. }) => "PointLight".to_owned(),
+        (None, LightKind::Spot { .. }) => "SpotLight".to_owned(),
+    }
+}
+
+/// The first of `count` lights that is not in the set.
+fn first_missing(set: &[LightId], count: usize) -> Option<LightId> {
     let mut distinct = set.to_vec();
     distinct.sort_unstable();
     distinct.dedup();
-    distinct.len() == count
+    let in_row = distinct.iter().enumerate();
+    let first = in_row.take_while(|(i, id)| id.index() == *i).count();
+    (first < count).then_some(LightId(first as u32))
 }

@@ -40,12 +40,31 @@ impl fmt::Display for LoadError {
 
 /// Finds and reads files that a model refers to.
 pub trait Loader {
-    /// The file called `name` by a file in the folder `beside`.
+    /// What identifies the file called `name` by a file in the folder `beside`, however it is
+    /// called: its canonical path. It is not read yet.
     ///
     /// # Errors
     ///
     /// Says why there is none.
-    fn load(&self, beside: &Path, name: &str) -> Result<Loaded, LoadError>;
+    fn find(&self, beside: &Path, name: &str) -> Result<PathBuf, LoadError>;
+
+    /// The bytes of a file that [`Self::find`] gave.
+    ///
+    /// # Errors
+    ///
+    /// Says why it cannot be read.
+    fn read(&self, id: &Path) -> Result<Vec<u8>, LoadError>;
+
+    /// Finds and reads.
+    ///
+    /// # Errors
+    ///
+    /// Those of both.
+    fn load(&self, beside: &Path, name: &str) -> Result<Loaded, LoadError> {
+        let id = self.find(beside, name)?;
+        let bytes = self.read(&id)?;
+        Ok(Loaded { id, bytes })
+    }
 }
 
 /// Reads from disk: beside the naming file first, then in the search folders; by the name as
@@ -76,6 +95,11 @@ impl FileLoader {
         }
     }
 
+    /// Whether a canonical path may be read.
+    fn allows(&self, id: &Path) -> bool {
+        self.folders.iter().any(|folder| id.starts_with(folder))
+    }
+
     fn candidates(&self, beside: &Path, name: &str) -> Vec<PathBuf> {
         let name = name.trim().trim_matches('"').replace('\\', "/");
         let name = match name.as_bytes() {
@@ -96,7 +120,7 @@ impl FileLoader {
 }
 
 impl Loader for FileLoader {
-    fn load(&self, beside: &Path, name: &str) -> Result<Loaded, LoadError> {
+    fn find(&self, beside: &Path, name: &str) -> Result<PathBuf, LoadError> {
         if name.contains("://") {
             return Err(LoadError::Remote);
         }
@@ -111,14 +135,10 @@ impl Loader for FileLoader {
             if !id.is_file() {
                 continue;
             }
-            if !self.folders.iter().any(|folder| id.starts_with(folder)) {
-                error = LoadError::Outside;
-                continue;
+            if self.allows(&id) {
+                return Ok(id);
             }
-            match read_limited(&id) {
-                Ok(bytes) => return Ok(Loaded { id, bytes }),
-                Err(why) => error = LoadError::Unreadable(why),
-            }
+            error = LoadError::Outside;
         }
         let goes_up = Path::new(name)
             .components()
@@ -127,6 +147,13 @@ impl Loader for FileLoader {
             error = LoadError::Outside;
         }
         Err(error)
+    }
+
+    fn read(&self, id: &Path) -> Result<Vec<u8>, LoadError> {
+        if !self.allows(id) {
+            return Err(LoadError::Outside);
+        }
+        read_limited(id).map_err(LoadError::Unreadable)
     }
 }
 

@@ -6,6 +6,7 @@ mod cpu {
     mod corpus;
     mod determinism;
     mod glb;
+    mod includes;
     mod large;
     mod models;
     mod precision;

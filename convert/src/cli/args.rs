@@ -70,7 +70,7 @@ pub struct Args {
 
     /// How many inputs are converted at once; each holds its model in memory [default: one for
     /// each processor]
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", value_parser = at_least_one)]
     pub jobs: Option<NonZeroUsize>,
 
     /// A further folder that may be read, searched for images and included files behind the
@@ -155,6 +155,11 @@ impl Args {
             )),
         }
     }
+}
+
+fn at_least_one(text: &str) -> Result<NonZeroUsize, String> {
+    let why = "it is the number of inputs converted at once, 1 or more";
+    text.parse().map_err(|_| why.to_owned())
 }
 
 fn folder(text: &str) -> Result<PathBuf, String> {

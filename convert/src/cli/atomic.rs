@@ -46,13 +46,17 @@ pub fn write(
 /// As [`write()`], in words with the path.
 pub fn write_json(path: &Path, document: &Value) -> Result<u64, String> {
     let text = json::text(document);
-    write(path, |out| out.write_all(text.as_bytes()))
-        .map_err(|error| format!("{}: {}", path.display(), cause(&error)))
+    write(path, |out| out.write_all(text.as_bytes())).map_err(|error| cannot_write(path, &error))
+}
+
+/// An output that could not be written.
+pub fn cannot_write(path: &Path, error: &io::Error) -> String {
+    format!("cannot write {}: {}", path.display(), cause(error))
 }
 
 /// What the system says. `tempfile` adds the temporary name, which says nothing to the user and
 /// differs from run to run.
-pub fn cause(error: &io::Error) -> String {
+fn cause(error: &io::Error) -> String {
     let text = error.to_string();
     match text.split_once(" at path ") {
         Some((cause, _)) => cause.to_owned(),

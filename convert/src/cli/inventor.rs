@@ -8,10 +8,11 @@ use std::sync::Arc;
 use iv_parser::{Diagnostic, Dialect, Encoding, Problem, Severity, Source, SourcePos, Span, Tree};
 use scenegraph::RegistryLayout;
 
-use super::{atomic, model};
+use super::{atomic, model, references};
 
 /// A text and what is wrong with it.
 pub struct Text<'a> {
+    bytes: &'a [u8],
     tree: Tree<'a>,
     /// Problems in order of place.
     pub diagnostics: Vec<Diagnostic>,
@@ -44,6 +45,7 @@ impl<'a> Text<'a> {
             });
         }
         Self {
+            bytes,
             tree: parse.tree,
             diagnostics,
         }
@@ -52,6 +54,16 @@ impl<'a> Text<'a> {
     /// Whether nothing of it could be read.
     pub fn is_unsupported(&self) -> bool {
         model::is_unsupported(&self.diagnostics)
+    }
+
+    /// What it refers to and would no longer find after moving from one folder to another.
+    pub fn left_behind(&self, name: &Arc<str>, from: &Path, to: &Path) -> Vec<Diagnostic> {
+        let source = Source {
+            name,
+            file: 0,
+            bytes: self.bytes,
+        };
+        source.diagnostics(references::left_behind(&self.tree, from, to))
     }
 
     /// Number of nodes written in it.

@@ -116,7 +116,7 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
 fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
-    let name = outcome.input.display().to_string().into();
+    let name: Arc<str> = outcome.input.display().to_string().into();
     let text = inventor::Text::of(&bytes, &name);
     outcome.diagnostics.clone_from(&text.diagnostics);
     if text.is_unsupported() {
@@ -125,8 +125,10 @@ fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
     make_folder_of(path)?;
     outcome.bytes_out = text
         .write(path)
-        .map_err(|error| format!("{}: {}", path.display(), atomic::cause(&error)))?;
+        .map_err(|error| atomic::cannot_write(path, &error))?;
     outcome.counts = json!({ "nodes": text.node_count() });
+    let (from, to) = (model::folder_of(&outcome.input), model::folder_of(path));
+    outcome.warnings = text.left_behind(&name, from, to);
     Ok(())
 }
 
@@ -179,14 +181,18 @@ fn words(error: &convert::Error) -> String {
         convert::Error::Io {
             path: Some(path),
             source,
-        } => format!("{}: {}", path.display(), atomic::cause(source)),
+        } => atomic::cannot_write(path, source),
+        convert::Error::Target { path, reason } => {
+            format!("cannot write {}: {reason}", path.display())
+        }
         other => other.to_string(),
     }
 }
 
 fn make_folder_of(path: &Path) -> Result<(), String> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+    fs::create_dir_all(folder)
+        .map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))
 }
 
 fn counts(report: &Report, instances: usize) -> Value {

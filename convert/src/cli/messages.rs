@@ -1,7 +1,7 @@
 //! What the user reads on standard error: a block for each input, and one line about all.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use iv_parser::{Diagnostic, Severity};
@@ -150,6 +150,11 @@ pub fn error_line(what: &str, why: &str) -> String {
     printable(&format!("{what}: error: {why}"))
 }
 
+/// Something that kept the command from beginning.
+pub fn error(why: &str) -> String {
+    printable(&format!("error: {why}"))
+}
+
 /// Names and texts come from the input: they must not steer the terminal.
 pub fn printable(text: &str) -> String {
     let show = |c: char| {
@@ -177,6 +182,8 @@ pub fn number(count: usize, what: &str) -> String {
 pub struct Totals {
     /// Inputs with an output.
     pub converted: usize,
+    /// The last output.
+    pub output: Option<PathBuf>,
     /// Inputs without.
     pub failed: usize,
     /// Kinds of losses, summed over the inputs.
@@ -198,6 +205,7 @@ impl Totals {
             self.failed += 1;
         } else {
             self.converted += 1;
+            self.output.clone_from(&outcome.output);
         }
         let is_error = |d: &&Diagnostic| d.severity == Severity::Error;
         let errors = outcome.diagnostics.iter().filter(is_error).count();
@@ -216,7 +224,10 @@ impl Totals {
 
     /// One line about all.
     pub fn summary(&self, time: Duration) -> String {
-        let mut parts = vec![format!("{} converted", self.converted)];
+        let mut parts = vec![match (&self.output, self.converted) {
+            (Some(output), 1) => format!("1 converted to {}", output.display()),
+            _ => format!("{} converted", self.converted),
+        }];
         if self.failed > 0 {
             parts.push(format!("{} failed", self.failed));
         }
@@ -233,7 +244,7 @@ impl Totals {
         let seconds = time.as_secs_f64();
         let decimals = if seconds < 1.0 { 2 } else { 1 };
         parts.push(format!("{seconds:.decimals$} s"));
-        parts.join(", ")
+        printable(&parts.join(", "))
     }
 
     /// The exit code of the command.

@@ -17,6 +17,7 @@ mod messages;
 mod model;
 mod plan;
 mod pool;
+mod references;
 mod report;
 mod screen;
 
@@ -24,7 +25,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::{CommandFactory, Parser};
+use clap::Parser;
 
 use args::Args;
 use inputs::Input;
@@ -48,10 +49,9 @@ pub fn run() -> ExitCode {
     } else {
         plan::outputs(&args, &inputs).map(|outputs| convert(&args, &inputs, &outputs))
     };
-    let code = outcome.unwrap_or_else(|message| {
-        let kind = clap::error::ErrorKind::ValueValidation;
-        // Nothing is left to tell if standard error is gone.
-        let _ = Args::command().error(kind, message).print();
+    let code = outcome.unwrap_or_else(|why| {
+        // The arguments are well formed, so how they are written is not explained again.
+        Screen::new(0, true).message(&messages::error(&why));
         FAILED
     });
     ExitCode::from(code)

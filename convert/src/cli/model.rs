@@ -35,7 +35,8 @@ pub fn is_unsupported(diagnostics: &[Diagnostic]) -> bool {
 /// Why an input of such a format failed; its diagnostic says which format it is.
 pub const UNSUPPORTED: &str = "not converted: its format is not read";
 
-fn folder_of(path: &Path) -> &Path {
+/// The folder that a file is named in; empty for the current one.
+pub fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 

@@ -8,6 +8,10 @@ fn exit_codes_and_messages() {
         .model("cube.iv", CUBE)
         .model("use.iv", UNKNOWN_USE)
         .model("fog.iv", FOG)
+        .model(
+            "comma.iv",
+            "Translation { translation 1,5 2,0 3,0 } Cube { }",
+        )
         .model("image.iv", IMAGE)
         .model("empty.iv", "Separator { Label { label \"a\" } }")
         .file("v2.wrl", "#VRML V2.0 utf8\nShape { }\n")
@@ -15,8 +19,8 @@ fn exit_codes_and_messages() {
         .file("folder/notes.txt", "");
     // Arguments, exit code, what the messages contain.
     let rows: &[(&str, i32, &[&str])] = &[
-        ("cube.iv", 0, &["1 converted, 0."]),
-        ("cube.iv --strict", 0, &["1 converted, 0."]),
+        ("cube.iv", 0, &["1 converted to cube.glb, 0."]),
+        ("cube.iv --strict", 0, &["1 converted to cube.glb, 0."]),
         (
             "use.iv",
             0,
@@ -36,7 +40,18 @@ fn exit_codes_and_messages() {
         (
             "fog.iv",
             0,
-            &["fog.iv:2:57: loss[fog]: ", "1 converted, 1 loss, "],
+            &[
+                "fog.iv:2:13: loss[fog]: ",
+                "1 converted to fog.glb, 1 loss, ",
+            ],
+        ),
+        (
+            "comma.iv",
+            0,
+            &[
+                "warning[extra-numbers]",
+                "numbers take a point, not a comma",
+            ],
         ),
         ("fog.iv --strict", 1, &["loss[fog]"]),
         (
@@ -75,7 +90,10 @@ fn exit_codes_and_messages() {
         (
             "gone.iv cube.iv",
             2,
-            &["gone.iv: error: cannot be read: ", "1 converted, 1 failed"],
+            &[
+                "gone.iv: error: cannot be read: ",
+                "1 converted to cube.glb, 1 failed",
+            ],
         ),
         (
             "folder",
@@ -85,13 +103,18 @@ fn exit_codes_and_messages() {
         (
             "cube.iv --out-dir cube.iv",
             2,
-            &["cube.iv: error: cube.iv: "],
+            &["cube.iv: error: cannot make the folder cube.iv: "],
         ),
-        ("cube.iv -o new/x.glb", 0, &["1 converted"]),
+        ("cube.iv -o new/x.glb", 0, &["1 converted to new/x.glb, "]),
+        (
+            "cube.iv use.iv --out-dir new",
+            0,
+            &["2 converted, 1 error, "],
+        ),
         (
             "cube.iv --report folder",
             2,
-            &["--report: error: folder: ", "1 converted"],
+            &["--report: error: cannot write folder: ", "1 converted"],
         ),
         ("cube.iv --quiet", 0, &[]),
         (
@@ -113,7 +136,12 @@ fn exit_codes_and_messages() {
             2,
             &["'gone'", "it is not a folder"],
         ),
-        ("cube.iv --jobs 0", 2, &["--jobs"]),
+        (
+            "cube.iv -j 0",
+            2,
+            &["'0'", "--jobs", "inputs converted at once, 1 or more"],
+        ),
+        ("cube.iv -j many", 2, &["'many'", "1 or more"]),
         ("cube.iv --json", 2, &["--info"]),
         ("cube.iv --info --strict", 2, &["cannot be used with"]),
         ("", 2, &["<INPUT>"]),
@@ -135,6 +163,26 @@ fn exit_codes_and_messages() {
                 run.err
             );
         }
+    }
+}
+
+/// What is wrong with the files is one line; how arguments are written is not explained for it.
+#[test]
+fn a_plan_that_fails_says_why_and_no_more() {
+    let place = Place::new().model("cube.iv", CUBE).model("fog.iv", FOG);
+    let rows = [
+        (
+            "cube.iv fog.iv -o a.glb",
+            "error: -o is for a single input file; use --out-dir for several and for folders\n",
+        ),
+        (
+            "cube.iv -q --format iv",
+            "error: `cube.iv` would be written over itself; give -o or --out-dir\n",
+        ),
+    ];
+    for (args, want) in rows {
+        let run = place.run(args);
+        assert_eq!((run.code, &*run.err), (2, want), "{args}");
     }
 }
 

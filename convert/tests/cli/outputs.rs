@@ -64,7 +64,11 @@ fn a_failed_write_leaves_the_old_file_and_no_other() {
                 .current_dir(place.folder.path()),
         );
         assert_eq!(run.code, 2, "{}", run.err);
-        assert!(run.err.contains("pavilion.iv: error: out."), "{}", run.err);
+        assert!(
+            run.err.contains("pavilion.iv: error: cannot write out."),
+            "{}",
+            run.err
+        );
         assert_eq!(place.files(), before, "{output}");
     }
 }
@@ -112,7 +116,55 @@ fn an_error_names_the_output_and_no_temporary_file() {
     for args in rows {
         let run = place.run(args);
         assert_eq!(run.code, 2, "{args}: {}", run.err);
-        assert!(run.err.contains("error: /proc/a."), "{args}: {}", run.err);
+        assert!(
+            run.err.contains("error: cannot write /proc/a."),
+            "{args}: {}",
+            run.err
+        );
         assert!(!run.err.contains(".ivconvert-"), "{args}: {}", run.err);
+    }
+}
+
+#[test]
+fn text_in_another_folder_says_what_it_leaves_behind() {
+    let place = Place::new()
+        .model(
+            "a.iv",
+            "Separator { Texture2 { filename \"img/wood.png\" } Cube { }\n\
+             Texture2 { filename img\\stone.png } Texture2 { filename \"gone.png\" }\n\
+             File { name \"part.iv\" } File { name \"part.iv\" } WWWAnchor { name \"web.iv\" } }",
+        )
+        .model("part.iv", CUBE)
+        .model("web.iv", CUBE)
+        .model("both/part.iv", CUBE)
+        .file("img/wood.png", "")
+        .file("img/stone.png", "")
+        .file("both/img/wood.png", "");
+    // Output, what is left behind: line and name.
+    let rows: [(&str, &[(u64, &str)]); 5] = [
+        ("b.iv", &[]),
+        ("./new/../b.iv", &[]),
+        (
+            "new/b.iv",
+            &[(2, "img/wood.png"), (3, "img\\stone.png"), (4, "part.iv")],
+        ),
+        ("both/b.iv", &[(3, "img\\stone.png")]),
+        ("b.glb", &[]),
+    ];
+    for (output, want) in rows {
+        let run = place.run(&format!("a.iv -o {output} --report r.json"));
+        assert_eq!(run.code, 0, "{}", run.err);
+        let report = place.json("r.json");
+        let warnings = report["inputs"][0]["warnings"].as_array().unwrap();
+        let got: Vec<(u64, &str)> = warnings
+            .iter()
+            .filter(|warning| warning["code"] == "left-behind")
+            .map(|warning| {
+                let message = warning["message"].as_str().unwrap();
+                let name = message.split('`').nth(1).unwrap();
+                (warning["line"].as_u64().unwrap(), name)
+            })
+            .collect();
+        assert_eq!(got, want, "{output}");
     }
 }

@@ -40,7 +40,7 @@ fn a_report_holds_it_all() {
         ("/inputs/0/diagnostics/1/column", column("wide").into()),
         ("/inputs/0/losses/0/code", "fog".into()),
         ("/inputs/0/losses/0/count", 2.into()),
-        ("/inputs/0/losses/0/column", column("Cube { wide").into()),
+        ("/inputs/0/losses/0/column", column("Environment").into()),
         ("/inputs/1/status", "failed".into()),
         ("/inputs/1/counts", Value::Null),
         ("/inputs/2/warnings/0/code", "image".into()),

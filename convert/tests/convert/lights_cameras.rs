@@ -54,9 +54,16 @@ fn intensities_follow_the_formulas() {
             point(10.0),
             [0.5, 2.0, 30.0],
             0.25,
-            25.0 * PI / (50.0 + 20.0 + 30.0),
+            // 0.5 * 36 + 2 * 6 + 30 is twice 30.
+            0.25 * 36.0 * PI / 60.0,
         ),
-        (spot(0.0, 0.5), [0.0, 1.0, 0.0], 1.0, 10.0 * PI),
+        // Half is at 4 of 10; at 20, behind the centre; at 1, nearer than a quarter of the way.
+        (point(10.0), [1.0, 0.0, 16.0], 1.0, 16.0 * PI / 32.0),
+        (point(10.0), [0.0, 0.5, 10.0], 1.0, 100.0 * PI / 15.0),
+        (point(10.0), [0.0, 1.0, 1.0], 1.0, 6.25 * PI / 3.5),
+        (spot(0.0, 0.5), [0.0, 1.0, 0.0], 1.0, 2.5 * PI),
+        // No attenuation that can be: half is nowhere.
+        (point(10.0), [-1.0, 0.0, 1000.0], 1.0, 100.0 * PI / 900.0),
         // At the centre: the distance of the radius, here half the diagonal of 2 x 2.
         (point(0.0), [0.0, 0.0, 1.0], 1.0, 2.0 * PI),
         // No attenuation at all, no light, and numbers beyond use.

@@ -3,8 +3,8 @@
 use convert::LossKind;
 use glam::{DAffine3, DVec3};
 use scenegraph::scene::{
-    Environment, EnvironmentId, Faces, Fog, FogType, LightKind, LightModel, LightSetId, Material,
-    Projection, ViewportMapping,
+    Environment, EnvironmentId, Faces, Fog, FogType, LightId, LightKind, LightModel, LightSetId,
+    Material, Projection, ViewportMapping,
 };
 use serde_json::json;
 
@@ -173,23 +173,78 @@ fn each_loss_is_reported_once_with_its_count() {
 
 #[test]
 fn a_loss_stands_where_its_cause_does() {
-    let wide = Material {
-        line_width_px: 4.5,
-        pos: at_line(33),
-        ..material()
-    };
-    let losses = convert(&Build::one(lines(), wide).scene).report.losses;
-    assert_eq!(
-        (losses[0].pos, &*losses[0].detail),
-        (at_line(33), "4.5 pixels")
-    );
-    // A material of defaults stands nowhere; its shape does.
-    let wide = Material {
-        line_width_px: 4.5,
-        ..material()
-    };
-    let losses = convert(&Build::one(lines(), wide).scene).report.losses;
-    assert_eq!(losses[0].pos, at_line(10));
+    use LossKind::*;
+    type Make = fn() -> Build;
+    // Shapes and lights stand at line 10; what comes from defaults stands nowhere.
+    let rows: [(LossKind, u32, &str, Make); 8] = [
+        (LineWidth, 33, "4.5 pixels", || {
+            let wide = Material {
+                line_width_px: 4.5,
+                pos: at_line(7),
+                style_pos: at_line(33),
+                ..material()
+            };
+            Build::one(lines(), wide)
+        }),
+        (LineWidth, 10, "4.5 pixels", || {
+            let wide = Material {
+                line_width_px: 4.5,
+                ..material()
+            };
+            Build::one(lines(), wide)
+        }),
+        (Fog, 44, "Haze", || {
+            let mut build = two_shapes();
+            build.scene.environments[0] = Environment {
+                pos: at_line(44),
+                ..fog()
+            };
+            build
+        }),
+        (Fog, 10, "Haze", || {
+            let mut build = two_shapes();
+            build.scene.environments[0] = fog();
+            build
+        }),
+        (AmbientLight, 44, "0.10", || {
+            let mut build = two_shapes();
+            build.scene.environments[0].ambient_intensity = 0.5;
+            build.scene.environments[0].pos = at_line(44);
+            build
+        }),
+        (AmbientLight, 33, "0.18", || {
+            let bright = Material {
+                ambient_srgb: [0.1, 0.9, 0.1],
+                pos: at_line(33),
+                ..material()
+            };
+            let mut build = Build::one(triangle(), bright);
+            build.scene.environments[0].pos = at_line(44);
+            build
+        }),
+        (LightScope, 13, "Lamp", || {
+            let mut build = two_shapes();
+            for line in [12, 13, 14] {
+                build.light(None, ID, point());
+                let light = build.scene.lights.last_mut().unwrap();
+                light.placement.pos = at_line(line);
+                light.placement.name = (line == 13).then(|| "Lamp".into());
+            }
+            build.scene.light_sets[0] = vec![LightId(2), LightId(0), LightId(0)];
+            build
+        }),
+        (LightScope, 12, "PointLight", || {
+            let mut build = two_shapes();
+            build.light(None, ID, point());
+            build.scene.light_sets[0].clear();
+            build
+        }),
+    ];
+    for (kind, line, detail, make) in rows {
+        let losses = convert(&make().scene).report.losses;
+        let loss = losses.iter().find(|loss| loss.kind == kind).unwrap();
+        assert_eq!((loss.pos, &*loss.detail), (at_line(line), detail));
+    }
 }
 
 #[test]

@@ -76,6 +76,7 @@ pub fn material() -> Material {
         line_width_px: 0.0,
         point_size_px: 0.0,
         line_pattern: 0xffff,
+        style_pos: at_line(0),
         pos: at_line(0),
     }
 }

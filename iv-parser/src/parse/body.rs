@@ -1,7 +1,6 @@
 //! Between a node's braces: fields and children.
 
 use super::{Frame, Parser};
-use crate::diagnostic::Severity;
 use crate::lex;
 use crate::source::Span;
 use crate::tree::{Child, Connection, Field, FieldId, Item, NodeId, Value};
@@ -61,24 +60,9 @@ impl<'a> Parser<'a> {
     }
 
     fn close_at_end(&mut self, node: NodeId, items: usize) {
-        let open = self
-            .frames
-            .iter()
-            .filter(|f| matches!(f, Frame::Body { .. }))
-            .count();
-        let span = self.tree.node(node).span;
-        if open == 1 {
-            let class = crate::text::text_of(self.tree.node(node).class);
-            self.problem(
-                Severity::Warning,
-                "missing-brace",
-                &format!("the text ends before the closing brace of this {class}"),
-                "the open nodes were closed; the file may be cut off",
-                Span {
-                    start: span.start,
-                    end: span.start + self.tree.node(node).class.len() as u32,
-                },
-            );
+        if !self.ended_inside {
+            self.ended_inside = true;
+            self.report_missing_brace();
         }
         self.close_body(node, items);
     }

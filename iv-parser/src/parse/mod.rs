@@ -5,6 +5,7 @@
 //! thing that can be skipped: a token, a value, a balanced body.
 
 mod body;
+mod braces;
 mod numbers;
 mod plain;
 mod recover;
@@ -50,6 +51,7 @@ pub fn parse_with<'a>(bytes: &'a [u8], limits: &Limits) -> Parse<'a> {
         odd_names: HashSet::new(),
         longest_odd_name: 0,
         unclosed: false,
+        ended_inside: false,
         run: numbers::Run::default(),
         problems,
         problems_dropped: 0,
@@ -112,6 +114,8 @@ struct Parser<'a> {
     longest_odd_name: usize,
     /// A string was found that nothing closes.
     unclosed: bool,
+    /// The text ended inside a body.
+    ended_inside: bool,
     /// Buffers for the run of numbers being read.
     run: numbers::Run,
     problems: Vec<Problem>,

@@ -361,3 +361,37 @@ fn depth_is_limited() {
     assert!(parsed.problems.iter().any(|p| p.code == "too-deep"));
     assert!(parsed.tree.node_count() <= 1001);
 }
+
+/// What is marked, and the line named in the hint.
+#[test]
+fn a_missing_brace_is_looked_for_by_indentation() {
+    let rows = [
+        // Cut off.
+        ("A {\n  B {\n  }\n", "A", None),
+        ("A {\n  B {\n    C {\n    }\n", "A", None),
+        // B is open: its line 4 belongs to A.
+        ("A {\n  B {\n    x 1\n}", "B", Some(4)),
+        ("A {\n  B {\n    C {\n      x 1\n  }\n}\n", "C", Some(5)),
+        ("A {\n\tB {\n\t\tC { x 1\n\t}\n\tD { }\n}\n", "C", Some(4)),
+        ("A {\r  DEF b B {\r    x 1\r  C {\r  }\r}", "B", Some(6)),
+        // Fields count as their lines do.
+        ("A {\n  p P {\n    x 1\n}", "P", Some(4)),
+        // Nothing to go by: no indentation, one line, tabs against blanks.
+        ("A {\nB {\nC {\n}\n}", "A", None),
+        ("  A { B { C { } }", "A", None),
+        ("A {\n  B {\n    C {\n\t}\n  }\n", "A", None),
+        ("A {\n  B {\nx 1 }\n", "A", None),
+    ];
+    for (text, marked, line) in rows {
+        let problems = parse(text.as_bytes()).problems;
+        let found: Vec<_> = (problems.iter())
+            .filter(|p| p.code == "missing-brace")
+            .collect();
+        assert_eq!(found.len(), 1, "{text:?}");
+        assert_eq!(&text[found[0].span.range()], marked, "{text:?}");
+        let named = found[0].hint.split_once(" in line ");
+        let named = named.and_then(|(_, rest)| rest.split_once(','));
+        let named = named.map(|(digits, _)| digits.parse::<u32>().unwrap());
+        assert_eq!(named, line, "{text:?}: {}", found[0].hint);
+    }
+}

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use iv_parser::{Diagnostic, NodeId as TreeId, Severity, SourcePos};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Builder, File};
 use crate::graph::{Node, NodeId};
-use crate::loader::{Loaded, Loader};
+use crate::loader::Loader;
 use crate::registry::Class;
 
 /// Most files that one model may bring in.
@@ -29,8 +29,10 @@ pub(super) struct Includes<'l> {
     loader: &'l dyn Loader,
     pending: Vec<Pending>,
     known: FxHashMap<PathBuf, (u32, NodeId)>,
-    /// For each file, the files it includes.
+    /// For each file, the files it includes, each once.
     edges: Vec<Vec<u32>>,
+    /// The same, as pairs.
+    connected: FxHashSet<(u32, u32)>,
 }
 
 impl<'l> Includes<'l> {
@@ -40,6 +42,7 @@ impl<'l> Includes<'l> {
             pending: Vec::new(),
             known: FxHashMap::default(),
             edges: Vec::new(),
+            connected: FxHashSet::default(),
         }
     }
 
@@ -68,6 +71,9 @@ impl<'l> Includes<'l> {
     }
 
     fn connect(&mut self, from: u32, to: u32) {
+        if !self.connected.insert((from, to)) {
+            return;
+        }
         let size = from.max(to) as usize + 1;
         if self.edges.len() < size {
             self.edges.resize_with(size, Vec::new);
@@ -115,12 +121,9 @@ impl Builder<'_> {
         } = self.includes.pending[index];
         let name = Arc::clone(name);
         let folder = self.files[file as usize].folder.clone();
-        let result = self.includes.loader.load(&folder, &name);
-        let found = match result {
-            Ok(loaded) => self.included(loaded, file),
-            Err(error) => Err(error.to_string()),
-        };
-        match found {
+        let loader = self.includes.loader;
+        let found = loader.find(&folder, &name).map_err(|e| e.to_string());
+        match found.and_then(|id| self.included(id, file)) {
             Ok(root) => self.nodes[node.0 as usize].children = vec![root],
             Err(why) => {
                 // An inline that brings its own stand-in loses little.
@@ -155,10 +158,12 @@ impl Builder<'_> {
         }
     }
 
-    fn included(&mut self, loaded: Loaded, from: u32) -> Result<NodeId, String> {
-        let known = self.includes.known.get(&loaded.id).copied();
+    fn included(&mut self, id: PathBuf, from: u32) -> Result<NodeId, String> {
+        let known = self.includes.known.get(&id).copied();
         if let Some((file, root)) = known {
-            if self.includes.reaches(file, from) {
+            // What is connected already was found to be without a circle.
+            let is_new = !self.includes.connected.contains(&(from, file));
+            if is_new && self.includes.reaches(file, from) {
                 return Err(format!(
                     "`{}`, which was found for it, includes this file, and that would never end",
                     self.files[file as usize].name
@@ -170,13 +175,14 @@ impl Builder<'_> {
         if self.files.len() >= MAX_FILES {
             return Err(format!("more than {MAX_FILES} files"));
         }
+        let bytes = self.includes.loader.read(&id).map_err(|e| e.to_string())?;
         let file = self.files.len() as u32;
         self.includes.connect(from, file);
-        let name = self.shown(&loaded.id);
-        let folder = loaded.id.parent().unwrap_or(Path::new("")).to_owned();
+        let name = self.shown(&id);
+        let folder = id.parent().unwrap_or(Path::new("")).to_owned();
         // As in SoFile: what stands at the top of the file leaks into the one that includes it.
-        let root = self.file(&loaded.bytes, name, &folder, Class::Group);
-        self.includes.known.insert(loaded.id, (file, root));
+        let root = self.file(&bytes, name, &folder, Class::Group);
+        self.includes.known.insert(id, (file, root));
         Ok(root)
     }
 }

@@ -4,6 +4,7 @@
 //! Never fails: what cannot be used is reported and left out. Nodes of the tree and nodes of the
 //! graph correspond one to one, so no traversal is needed; only what upgrading adds comes behind.
 
+mod decimal;
 mod include;
 mod names;
 mod node;

@@ -12,6 +12,8 @@ use crate::graph::{FieldValue, NodeId};
 use crate::registry::{FieldSpec, FieldType};
 use crate::scene::Image;
 
+use super::decimal::has_decimal_commas;
+
 /// What reading a value needs besides the value.
 pub(super) struct Reader<'t, 'a> {
     pub tree: &'t Tree<'a>,
@@ -273,7 +275,12 @@ impl<'a> Reader<'_, 'a> {
                 "{} takes {size} numbers a value; {extra} are left over",
                 (self.subject)()
             );
-            self.warn("extra-numbers", message, "they were ignored", span);
+            let hint = if has_decimal_commas(&self.tree.source[span.range()]) {
+                "they were ignored; numbers take a point, not a comma: `1.5`"
+            } else {
+                "they were ignored"
+            };
+            self.warn("extra-numbers", message, hint, span);
         }
         Some(usable)
     }

@@ -4,7 +4,8 @@ macro_rules! appearance {
     ([$next:ident $($rest:ident)*] $($seen:tt)*) => { $next! { [$($rest)*] $($seen)* Appearance {
 
 Material: Node, Full, [],
-    "Sets all six properties, those not written to their defaults." {
+    "Sets all six properties, those not written to their defaults. In VRML 1 a material that has more \
+     emissive than diffuse colours, or reflects nothing, is unlit in its emissive colours." {
     ambientColor: MFColor = "0.2 0.2 0.2";
     diffuseColor: MFColor = "0.8 0.8 0.8";
     specularColor: MFColor = "0 0 0";

@@ -23,8 +23,9 @@ TextureCoordinate2: Node, Full, [],
     "Texture coordinates." {
     point: MFVec2f = "[]";
 }
-TextureCoordinate3: Node, Planned, [],
-    "Texture coordinates in space; not used yet. Coin and TGS addition." {
+TextureCoordinate3: Node, Full, [],
+    "Texture coordinates in space; a Texture2 takes s and t as they are, and no r. Coin and TGS \
+     addition." {
     point: MFVec3f = "[]";
 }
 TextureCoordinateBinding: Node, Full, [],
@@ -74,7 +75,8 @@ VertexAttributeBinding: Node, Kept, [],
 }
 VertexProperty: Node, Partial, [],
     "Coordinates, normals, colours and texture coordinates in one node; lists that are not empty \
-     override the state. texCoord3 and textureUnit (Coin, TGS) are not used." {
+     override the state. texCoord3 (s and t of it) and textureUnit are Coin's and TGS's; \
+     textureUnit is not used." {
     vertex: MFVec3f = "[]";
     texCoord: MFVec2f = "[]";
     texCoord3: MFVec3f = "[]";

@@ -6,6 +6,7 @@ use iv_parser::Dialect;
 use crate::graph::{FieldValue, Node, NodeId};
 use crate::registry::Class;
 use crate::scene::{Environment, Fog, FogType, LightModel};
+use crate::shape::has_texcoords;
 
 use super::state::{Binding, ColorSource, Ordering, State, Style, TexCoords};
 use super::walk::Walk;
@@ -27,8 +28,8 @@ impl Walk<'_> {
                     state.normals = (!node.numbers("vector").is_empty()).then_some(id);
                 }
             }
-            Class::TextureCoordinate2 if node.is_ignored("point") => {}
-            Class::TextureCoordinate2 => {
+            Class::TextureCoordinate2 | Class::TextureCoordinate3 if node.is_ignored("point") => {}
+            Class::TextureCoordinate2 | Class::TextureCoordinate3 => {
                 let given = !node.numbers("point").is_empty();
                 state.texcoords = if given {
                     TexCoords::List(id)
@@ -55,7 +56,13 @@ impl Walk<'_> {
                 state.texcoord_binding =
                     Binding::from_word(node.word("value"), Binding::PerVertexIndexed);
             }
-            Class::Material => material(node, id, state),
+            Class::Material => {
+                let file = &graph.files[node.pos.file as usize];
+                material(node, id, state);
+                if file.header.dialect == Dialect::Vrml1 {
+                    light_beforehand(node, id, state);
+                }
+            }
             Class::BaseColor => {
                 if !node.numbers("rgb").is_empty() && !node.is_ignored("rgb") {
                     state.material.diffuse = ColorSource::Base(id);
@@ -90,6 +97,9 @@ impl Walk<'_> {
                 }
             }
             Class::DrawStyle => draw_style(node, state),
+            // Picture, wrapping and model are one element of the state, which the picture's fields
+            // stand for (SGI's SoTexture2).
+            Class::Texture2 if node.is_ignored("filename") || node.is_ignored("image") => {}
             Class::Texture2 => {
                 let image = matches!(node.value("image"), FieldValue::Image(Some(_)));
                 let file = node.text("filename").is_some_and(|name| !name.is_empty());
@@ -99,6 +109,7 @@ impl Walk<'_> {
             Class::Texture2Transform => {
                 state.texture_transform *= texture_transform(node);
             }
+            Class::TextureMatrixTransform if node.is_ignored("matrix") => {}
             Class::TextureMatrixTransform => {
                 if let Ok(m) = <[f64; 16]>::try_from(node.numbers("matrix")) {
                     state.texture_transform *= DMat3::from_cols(
@@ -115,24 +126,45 @@ impl Walk<'_> {
     }
 
     fn environment(&mut self, node: &Node) {
-        let fog_type = match node.word("fogType") {
-            "HAZE" => Some(FogType::Haze),
-            "FOG" => Some(FogType::Fog),
-            "SMOKE" => Some(FogType::Smoke),
+        let before = &self.state.environment;
+        let fog = match node.word("fogType") {
+            _ if node.is_ignored("fogType") => before.fog,
+            "HAZE" => Some(fog(node, FogType::Haze, before)),
+            "FOG" => Some(fog(node, FogType::Fog, before)),
+            "SMOKE" => Some(fog(node, FogType::Smoke, before)),
             _ => None,
         };
+        let triple = |field: &str, before: [f64; 3]| {
+            if node.is_ignored(field) {
+                before
+            } else {
+                node.triple(field)
+            }
+        };
         let environment = Environment {
-            ambient_intensity: node.number("ambientIntensity"),
-            ambient_color_srgb: node.triple("ambientColor"),
-            attenuation: node.triple("attenuation"),
-            fog: fog_type.map(|fog_type| Fog {
-                fog_type,
-                color_srgb: node.triple("fogColor"),
-                visibility: node.number("fogVisibility"),
-            }),
+            ambient_intensity: if node.is_ignored("ambientIntensity") {
+                before.ambient_intensity
+            } else {
+                node.number("ambientIntensity")
+            },
+            ambient_color_srgb: triple("ambientColor", before.ambient_color_srgb),
+            attenuation: triple("attenuation", before.attenuation),
+            fog,
+            pos: node.pos,
         };
         self.state.environment_id = self.builder.environment(&environment);
         self.state.environment = environment;
+    }
+}
+
+/// Fog of an Environment; colour and visibility marked as ignored are those of the fog before it.
+fn fog(node: &Node, fog_type: FogType, before: &Environment) -> Fog {
+    let kept = |field: &str| before.fog.filter(|_| node.is_ignored(field));
+    Fog {
+        fog_type,
+        color_srgb: kept("fogColor").map_or_else(|| node.triple("fogColor"), |f| f.color_srgb),
+        visibility: kept("fogVisibility")
+            .map_or_else(|| node.number("fogVisibility"), |f| f.visibility),
     }
 }
 
@@ -146,7 +178,7 @@ fn vertex_property(node: &Node, id: NodeId, state: &mut State) {
         state.normal_binding =
             Binding::from_word(node.word("normalBinding"), Binding::PerVertexIndexed);
     }
-    if !node.numbers("texCoord").is_empty() {
+    if has_texcoords(node) {
         state.texcoords = TexCoords::List(id);
     }
     if !node.ints("orderedRGBA").is_empty() {
@@ -181,6 +213,24 @@ fn material(node: &Node, id: NodeId, state: &mut State) {
     }
 }
 
+/// VRML 1 has no LightModel. There a Material says that its shapes are lit beforehand by having
+/// more emissive than diffuse colours (Coin's SoMaterial::getMaterialType), or by reflecting
+/// nothing at all (VRML 1.0, Material); any other Material says that they are lit.
+fn light_beforehand(node: &Node, id: NodeId, state: &mut State) {
+    let values = |field: &str| (!node.is_ignored(field)).then(|| node.numbers(field));
+    let is_black = |field: &str| values(field).is_some_and(|v| v.iter().all(|&v| v == 0.0));
+    let emissive = values("emissiveColor").unwrap_or(&[]);
+    let diffuse = values("diffuseColor").unwrap_or(&[]);
+    let glows_only =
+        !is_black("emissiveColor") && is_black("diffuseColor") && is_black("specularColor");
+    state.light_model = if emissive.len() > diffuse.len() || (glows_only && !emissive.is_empty()) {
+        state.material.diffuse = ColorSource::Emissive(id);
+        LightModel::BaseColor
+    } else {
+        LightModel::Phong
+    };
+}
+
 fn shape_hints(node: &Node, state: &mut State, vrml1: bool) {
     if !node.is_ignored("vertexOrdering") {
         state.hints.ordering = match node.word("vertexOrdering") {
@@ -205,6 +255,7 @@ fn shape_hints(node: &Node, state: &mut State, vrml1: bool) {
 
 fn draw_style(node: &Node, state: &mut State) {
     let style = &mut state.draw_style;
+    style.pos = node.pos;
     if !node.is_ignored("style") {
         style.style = match node.word("style") {
             "LINES" => Style::Lines,
@@ -224,15 +275,21 @@ fn draw_style(node: &Node, state: &mut State) {
     }
 }
 
-/// Scale, then rotate, about `center`; then translate (Coin's SoTexture2Transform).
+/// Scale, then rotate, about `center`; then translate (Coin's SoTexture2Transform). A field marked
+/// as ignored does nothing.
 fn texture_transform(node: &Node) -> DMat3 {
-    let pair = |field: &str| match node.numbers(field) {
-        [x, y, ..] => DVec2::new(*x, *y),
-        _ => DVec2::ZERO,
+    let pair = |field: &str, without: DVec2| match node.numbers(field) {
+        [x, y, ..] if !node.is_ignored(field) => DVec2::new(*x, *y),
+        _ => without,
     };
-    let center = pair("center");
-    DMat3::from_translation(pair("translation") + center)
-        * DMat3::from_angle(node.number("rotation"))
-        * DMat3::from_scale(pair("scaleFactor"))
+    let center = pair("center", DVec2::ZERO);
+    let angle_rad = if node.is_ignored("rotation") {
+        0.0
+    } else {
+        node.number("rotation")
+    };
+    DMat3::from_translation(pair("translation", DVec2::ZERO) + center)
+        * DMat3::from_angle(angle_rad)
+        * DMat3::from_scale(pair("scaleFactor", DVec2::ONE))
         * DMat3::from_translation(-center)
 }

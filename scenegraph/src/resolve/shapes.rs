@@ -119,6 +119,7 @@ impl Walk<'_> {
             line_width_px: state.draw_style.line_width_px,
             point_size_px: state.draw_style.point_size_px,
             line_pattern: state.draw_style.line_pattern,
+            style_pos: state.draw_style.pos,
             pos: node.map(|n| n.pos).unwrap_or_default(),
         })
     }

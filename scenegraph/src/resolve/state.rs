@@ -4,6 +4,7 @@
 //! large in the source are held by the node that set them, so a copy is a few hundred bytes.
 
 use glam::{DAffine3, DMat3};
+use iv_parser::SourcePos;
 
 use crate::graph::NodeId;
 use crate::scene::{Environment, EnvironmentId, LightModel};
@@ -69,6 +70,8 @@ pub enum ColorSource {
     Default,
     /// `Material.diffuseColor`, `Material.transparency`.
     Material(NodeId),
+    /// `Material.emissiveColor` of a material that is lit beforehand.
+    Emissive(NodeId),
     /// `BaseColor.rgb`.
     Base(NodeId),
     /// `PackedColor.orderedRGBA` or `VertexProperty.orderedRGBA`.
@@ -93,7 +96,7 @@ pub struct MaterialState {
 pub enum TexCoords {
     /// The shape's bounding box.
     Default,
-    /// `TextureCoordinate2` or `VertexProperty`.
+    /// `TextureCoordinate2`, `TextureCoordinate3` or `VertexProperty`.
     List(NodeId),
     /// `TextureCoordinatePlane` or `TextureCoordinateObject`.
     Function(NodeId),
@@ -115,6 +118,7 @@ pub struct DrawStyle {
     pub line_width_px: f64,
     pub point_size_px: f64,
     pub line_pattern: u16,
+    pub pos: SourcePos,
 }
 
 /// A list of lights, held by the builder: 0 is the empty one. Lists share their beginnings, so
@@ -190,6 +194,7 @@ impl State {
                 line_width_px: 0.0,
                 point_size_px: 0.0,
                 line_pattern: 0xffff,
+                pos: SourcePos::default(),
             },
             texture: None,
             texture_transform: DMat3::IDENTITY,

@@ -17,6 +17,7 @@ pub fn apply(class: Class, node: &Node, state: &mut State, remarks: &mut Remarks
                 state.transform(&translation(node, "translation"));
             }
         }
+        Class::Shuttle if node.is_ignored("translation0") => {}
         Class::Shuttle => state.transform(&translation(node, "translation0")),
         Class::Rotation | Class::Rotor => {
             state.transform(&DAffine3::from_quat(rotation(node, "rotation", remarks)))
@@ -24,6 +25,7 @@ pub fn apply(class: Class, node: &Node, state: &mut State, remarks: &mut Remarks
         Class::Pendulum => {
             state.transform(&DAffine3::from_quat(rotation(node, "rotation0", remarks)))
         }
+        Class::RotationXYZ if node.is_ignored("axis") || node.is_ignored("angle") => {}
         Class::RotationXYZ => state.transform(&DAffine3::from_quat(about_axis(node))),
         Class::Scale => {
             if !node.is_ignored("scaleFactor") {
@@ -37,6 +39,7 @@ pub fn apply(class: Class, node: &Node, state: &mut State, remarks: &mut Remarks
                 state.relative = DAffine3::IDENTITY;
             }
         }
+        Class::Units if node.is_ignored("units") => {}
         Class::Units => units(node, state),
         Class::AntiSquish | Class::SurroundScale => remarks.add(
             iv_parser::Severity::Note,

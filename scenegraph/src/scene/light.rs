@@ -1,6 +1,7 @@
 //! Lights, cameras and the environment, with Inventor's own values.
 
 use glam::{DQuat, DVec3};
+use iv_parser::SourcePos;
 
 use super::{EnvironmentId, Placement};
 
@@ -78,6 +79,8 @@ pub struct Environment {
     pub attenuation: [f64; 3],
     /// Fog, if any.
     pub fog: Option<Fog>,
+    /// Where the first node with these values stands; line 0 for Inventor's defaults.
+    pub pos: SourcePos,
 }
 
 impl Default for Environment {
@@ -87,6 +90,7 @@ impl Default for Environment {
             ambient_color_srgb: [1.0; 3],
             attenuation: [0.0, 0.0, 1.0],
             fog: None,
+            pos: SourcePos::default(),
         }
     }
 }

@@ -57,6 +57,8 @@ pub struct Material {
     pub point_size_px: f64,
     /// `DrawStyle.linePattern`; 0xffff = solid.
     pub line_pattern: u16,
+    /// Where the `DrawStyle` node stands; line 0 when its values are defaults.
+    pub style_pos: SourcePos,
     /// Where the `Material` node stands; line 0 when all values are defaults.
     pub pos: SourcePos,
 }

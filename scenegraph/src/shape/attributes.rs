@@ -1,6 +1,6 @@
 //! The arrays and bindings that a shape sees: those of the state, or of its `vertexProperty`.
 
-use glam::DMat3;
+use glam::{DMat3, DVec2};
 use iv_parser::{Dialect, SourcePos};
 
 use crate::graph::{Graph, Node, NodeId};
@@ -39,10 +39,29 @@ pub struct Attributes<'g> {
 pub enum TexCoordSource<'g> {
     /// The bounding box.
     Default,
-    /// A list of pairs, flat.
-    List(&'g [f64]),
+    /// A list.
+    List(TexCoordList<'g>),
     /// `TextureCoordinatePlane` or `TextureCoordinateObject`.
     Function(&'g Node),
+}
+
+/// A list of texture coordinates, flat.
+#[derive(Clone, Copy)]
+pub struct TexCoordList<'g> {
+    numbers: &'g [f64],
+    /// Numbers a coordinate: 2, or 3 with an `r` that a flat texture does not look at (OpenGL
+    /// divides by the fourth coordinate only, which is 1 here).
+    size: usize,
+}
+
+impl TexCoordList<'_> {
+    /// `s` and `t` of an entry; zero beyond the end.
+    pub fn get(&self, index: usize) -> DVec2 {
+        match self.numbers.get(index * self.size..(index + 1) * self.size) {
+            Some(&[s, t, ..]) => DVec2::new(s, t),
+            _ => DVec2::ZERO,
+        }
+    }
 }
 
 impl<'g> Attributes<'g> {
@@ -78,8 +97,8 @@ impl<'g> Attributes<'g> {
                 diffuse = ColorSource::Packed(id);
                 color_binding = Binding::from_word(own.word("materialBinding"), Binding::Overall);
             }
-            if !own.numbers("texCoord").is_empty() {
-                texcoords = TexCoordSource::List(own.numbers("texCoord"));
+            if has_texcoords(own) {
+                texcoords = TexCoordSource::List(texcoords_of(own));
             }
         }
         Self {
@@ -133,9 +152,21 @@ fn normals_of(node: &Node) -> &[f64] {
     }
 }
 
-fn texcoords_of(node: &Node) -> &[f64] {
-    match node.class() {
-        Some(Class::VertexProperty) => node.numbers("texCoord"),
-        _ => node.numbers("point"),
+/// Whether a VertexProperty holds texture coordinates.
+pub fn has_texcoords(node: &Node) -> bool {
+    !node.numbers("texCoord").is_empty() || !node.numbers("texCoord3").is_empty()
+}
+
+/// Of a VertexProperty with both kinds the flat ones, which the texture is.
+fn texcoords_of(node: &Node) -> TexCoordList<'_> {
+    let (field, size) = match node.class() {
+        Some(Class::VertexProperty) if node.numbers("texCoord").is_empty() => ("texCoord3", 3),
+        Some(Class::VertexProperty) => ("texCoord", 2),
+        Some(Class::TextureCoordinate3) => ("point", 3),
+        _ => ("point", 2),
+    };
+    TexCoordList {
+        numbers: node.numbers(field),
+        size,
     }
 }

@@ -40,6 +40,7 @@ impl<'g> Colors<'g> {
         let diffuse = match diffuse {
             ColorSource::Default => Diffuse::Default,
             ColorSource::Material(id) => Diffuse::Triples(graph.node(id).numbers("diffuseColor")),
+            ColorSource::Emissive(id) => Diffuse::Triples(graph.node(id).numbers("emissiveColor")),
             ColorSource::Base(id) => Diffuse::Triples(graph.node(id).numbers("rgb")),
             ColorSource::Packed(id) => Diffuse::Packed(packed(id)),
         };

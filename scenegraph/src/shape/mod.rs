@@ -29,7 +29,7 @@ pub use measure::Measure;
 
 use crate::graph::Graph;
 use assemble::Assembler;
-pub(crate) use attributes::Attributes;
+pub(crate) use attributes::{Attributes, has_texcoords};
 pub(crate) use primitives::is_closed;
 
 /// All that a mesh depends on.

@@ -68,10 +68,7 @@ impl<'a> TexCoordMaker<'a> {
         let st = match self.source {
             TexCoordSource::Default => self.map.texcoord(p()),
             TexCoordSource::Function(node) => function(node, p()),
-            TexCoordSource::List(list) => match list.get(index * 2..index * 2 + 2) {
-                Some(&[s, t]) => DVec2::new(s, t),
-                _ => DVec2::ZERO,
-            },
+            TexCoordSource::List(list) => list.get(index),
         };
         transformed(&self.attributes.texture_transform, st)
     }

@@ -1,9 +1,10 @@
 //! The rules of Open Inventor that readers most often get wrong, one row each.
 //!
 //! The numbers are those of the rule list in the format guide; `original_files` runs the files of
-//! that list too, where they are at hand. Where Coin itself is wrong, the row holds what is right.
+//! that list too, where they are at hand; `more` holds rules beyond that list. Where Coin itself is wrong, the row holds what is right.
 
 pub mod check;
+pub mod more;
 pub mod table;
 
 use std::fs;
@@ -16,7 +17,7 @@ use tests::measure::totals;
 #[test]
 fn rows() {
     let mut failures = Vec::new();
-    for rule in table::RULES {
+    for rule in table::RULES.iter().chain(more::RULES) {
         if let Err(why) = check::check(rule) {
             failures.push(format!("{} ({}): {why}", rule.number, rule.name));
         }
@@ -26,10 +27,10 @@ fn rows() {
 
 #[test]
 fn every_row_can_fail() {
-    for rule in table::RULES {
+    for rule in table::RULES.iter().chain(more::RULES) {
         let other = check::Rule {
             text: "Separator { Cube { width 7 } Sphere { } }",
-            ..*rule
+            ..rule.clone()
         };
         assert!(
             check::check(&other).is_err(),
@@ -117,4 +118,26 @@ fn original_files() {
             Triangles(least) => assert!(t.triangles >= least, "{name}: {}", t.triangles),
         }
     }
+}
+
+#[test]
+fn styles_and_environments_know_their_nodes() {
+    let text = "#Inventor V2.1 ascii\n\
+        Cube { }\n\
+        Separator {\n\
+        DrawStyle { lineWidth 3 }\n\
+        Environment { ambientIntensity 1 }\n\
+        Cube { }\n\
+        }\n\
+        DrawStyle { lineWidth 2 }\n\
+        Cube { }";
+    let loader = FileLoader::default();
+    let graph = load(text.as_bytes(), "places.iv", Path::new("."), &loader);
+    let scene = resolve(&graph, &ResolveOptions::default()).scene;
+    let places = scene.instances.iter().map(|i| {
+        let style = scene.materials[i.material.index()].style_pos;
+        let environment = scene.environments[i.environment.index()].pos;
+        (style.line, environment.line)
+    });
+    assert_eq!(places.collect::<Vec<_>>(), [(0, 0), (4, 5), (8, 0)]);
 }

@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use glam::DVec3;
+use scenegraph::scene::{Environment, Instance, LightModel, Material};
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 use tests::measure::{Corner, Primitive, primitives, totals};
 
 /// A rule. What is empty or `None` is not asked, but for `codes`, which are all there must be.
+#[derive(Clone)]
 pub struct Rule {
     /// In the guide's list.
     pub number: u8,
@@ -26,6 +28,10 @@ pub struct Rule {
     pub normal: Option<[f64; 3]>,
     /// Transparency of every corner.
     pub transparency: Option<f64>,
+    /// Whether every shape is unlit.
+    pub unlit: Option<bool>,
+    /// The environment of every shape, but for its place.
+    pub environment: Option<Environment>,
     /// Triangles, lines, points.
     pub counts: Option<[usize; 3]>,
     /// Area of all triangles.
@@ -49,6 +55,8 @@ pub const RULE: Rule = Rule {
     texcoords: &[],
     normal: None,
     transparency: None,
+    unlit: None,
+    environment: None,
     counts: None,
     area: None,
     bounds: None,
@@ -90,6 +98,20 @@ pub fn check(rule: &Rule) -> Result<(), String> {
             .first()
             .map_or(Vec::new(), |n| n.notes.iter().map(|note| &**note).collect());
         same("notes", &notes, &rule.notes.to_vec())?;
+    }
+    if let Some(unlit) = rule.unlit {
+        let is_unlit = |m: &Material| m.light_model == LightModel::BaseColor;
+        let ours: Vec<bool> = scene.materials.iter().map(is_unlit).collect();
+        same("unlit", &ours, &vec![unlit; ours.len().max(1)])?;
+    }
+    if let Some(environment) = &rule.environment {
+        let of = |i: &Instance| Environment {
+            pos: environment.pos,
+            ..scene.environments[i.environment.index()].clone()
+        };
+        let ours: Vec<Environment> = scene.instances.iter().map(of).collect();
+        let wanted = vec![environment.clone(); ours.len().max(1)];
+        same("environment", &ours, &wanted)?;
     }
     let drawn: Vec<Primitive> = primitives(scene).collect();
     for corner in drawn.iter().flat_map(|p| &p.corners) {

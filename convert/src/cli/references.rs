@@ -1,0 +1,64 @@
+//! References of an Inventor text to other files, which do not move with it into another folder.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use iv_parser::{Atom, Item, NodeId, Problem, Severity, Tree, Value, text_of};
+
+/// A problem for each file that is found from the folder `from` and not from the folder `to`,
+/// where it is named first.
+pub fn left_behind(tree: &Tree<'_>, from: &Path, to: &Path) -> Vec<Problem> {
+    let absolute = |folder: &Path| match folder.as_os_str().is_empty() {
+        true => Path::new(".").canonicalize(),
+        false => folder.canonicalize(),
+    };
+    match (absolute(from), absolute(to)) {
+        (Ok(from), Ok(to)) if from == to => return Vec::new(),
+        _ => {}
+    }
+    let mut seen = BTreeSet::new();
+    let mut problems = Vec::new();
+    for atom in file_names(tree) {
+        let (Atom::String(raw, span) | Atom::Word(raw, span)) = *atom else {
+            continue;
+        };
+        let name = text_of(raw);
+        // As the loader reads names of other systems.
+        let path = name.replace('\\', "/");
+        let path = Path::new(&path);
+        let is_moved = path.is_relative() && from.join(path).is_file() && !to.join(path).is_file();
+        if is_moved && seen.insert(raw) {
+            problems.push(Problem {
+                severity: Severity::Warning,
+                code: "left-behind",
+                message: format!("`{name}` is not found from the folder of the output"),
+                hint:
+                    "the text is written as it is; copy the file along, or write beside the input"
+                        .to_owned(),
+                span,
+            });
+        }
+    }
+    problems
+}
+
+/// The names of images and of included files.
+fn file_names<'t, 'a>(tree: &'t Tree<'a>) -> impl Iterator<Item = &'t Atom<'a>> {
+    let nodes = (0..tree.node_count()).map(|i| NodeId(i as u32));
+    let fields = nodes.flat_map(|id| {
+        let class = tree.node(id).class;
+        let includes = matches!(class, b"File" | b"SoFile" | b"WWWInline" | b"SoWWWInline");
+        let names_a_file = move |name: &[u8]| {
+            matches!(name, b"filename" | b"filenames") || (includes && name == b"name")
+        };
+        let fields = tree.items(id).iter().filter_map(|item| match item {
+            Item::Field(field) => Some(tree.field(*field)),
+            Item::Child(_) => None,
+        });
+        fields.filter(move |field| names_a_file(field.name))
+    });
+    fields.flat_map(|field| match field.value {
+        Value::Atoms { atoms, .. } => tree.atoms(atoms),
+        _ => &[],
+    })
+}
