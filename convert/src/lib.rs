@@ -36,6 +36,7 @@ mod material;
 mod mesh;
 mod options;
 mod plan;
+mod read;
 mod remarks;
 mod report;
 mod sound;
@@ -50,6 +51,7 @@ pub use file::write_file;
 pub use loss::{Effect, Loss, LossKind, losses_markdown};
 pub use options::{Container, Options};
 pub use plan::Plan;
+pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
 pub use texture::TextureLoader;
 
