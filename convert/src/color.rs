@@ -11,6 +11,16 @@ pub(crate) fn linear_from_srgb(value_srgb: f64) -> f64 {
     }
 }
 
+/// Inverse of [`linear_from_srgb`], with the same clamping.
+pub(crate) fn srgb_from_linear(value_linear: f64) -> f64 {
+    let v = unit(value_linear);
+    if v <= 0.003_130_8 {
+        v * 12.92
+    } else {
+        1.055 * v.powf(1.0 / 2.4) - 0.055
+    }
+}
+
 pub(crate) fn linear_rgb_from_srgb(color_srgb: [f64; 3]) -> [f64; 3] {
     color_srgb.map(linear_from_srgb)
 }

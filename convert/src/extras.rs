@@ -60,8 +60,12 @@ pub(crate) fn material(json: &mut Json, material: &Material) {
 
 pub(crate) fn texture(json: &mut Json, texture: &Texture) {
     iv(json, |json| {
-        if let TextureSource::File { name, .. } = &texture.source {
-            json.key("filename").str(name);
+        match &texture.source {
+            TextureSource::File { name, .. }
+            | TextureSource::Encoded {
+                name: Some(name), ..
+            } => json.key("filename").str(name),
+            TextureSource::Encoded { name: None, .. } | TextureSource::Inline(_) => {}
         }
         let model = match texture.model {
             TextureModel::Modulate => None,

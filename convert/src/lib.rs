@@ -38,6 +38,7 @@ mod mesh;
 mod options;
 mod pixels;
 mod plan;
+mod read;
 mod remarks;
 mod report;
 mod sound;
@@ -53,6 +54,7 @@ pub use loss::{Effect, Loss, LossKind, losses_markdown};
 pub use options::{Container, Options};
 pub use pixels::Pixels;
 pub use plan::Plan;
+pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
 pub use texture::TextureLoader;
 

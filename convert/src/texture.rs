@@ -141,6 +141,13 @@ impl<'s> Textures<'s> {
                 Ok(encoded) => Some(self.store(encoded, None)),
                 Err(reason) => self.warn("inline image", reason, texture),
             },
+            TextureSource::Encoded { bytes, name } => {
+                let called = name.as_deref().unwrap_or_default();
+                match Encoded::from_file(bytes.to_vec(), called) {
+                    Ok(encoded) => Some(self.store(encoded, name.as_deref().map(file_name))),
+                    Err(reason) => self.warn("embedded image", reason, texture),
+                }
+            }
             TextureSource::File { name, beside } => self.file_image(beside, name, texture),
         };
         self.by_texture.insert(id, image);

@@ -103,6 +103,13 @@ pub struct Image {
 pub enum TextureSource {
     /// In the file.
     Inline(Arc<Image>),
+    /// In memory, as an image file, not decoded yet.
+    Encoded {
+        /// The file; its first bytes tell the format, whatever it is called.
+        bytes: Arc<[u8]>,
+        /// As the source calls it.
+        name: Option<Arc<str>>,
+    },
     /// A file of its own, not opened yet.
     File {
         /// As written in the source.

@@ -162,6 +162,9 @@ fn textures(scene: &Scene) -> Vec<TextureKind> {
             image.bytes.len(),
         ),
         TextureSource::File { name, .. } => TextureKind::File(name.to_string()),
+        TextureSource::Encoded { name, .. } => {
+            TextureKind::File(name.as_deref().unwrap_or("embedded image").to_owned())
+        }
     };
     scene.textures.iter().map(|t| kind(&t.source)).collect()
 }

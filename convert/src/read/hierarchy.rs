@@ -1,0 +1,299 @@
+//! The nodes of a file as groups and items of the scene, on an explicit stack.
+//!
+//! A node without children that holds one item and says nothing else is that item; any other is a
+//! group. A node must have one parent and is visited once, so the walk ends.
+
+use std::sync::Arc;
+
+use glam::DAffine3;
+use gltf::json::Index;
+use gltf::json::Node as JsonNode;
+use iv_parser::SourcePos;
+use scenegraph::scene::{
+    Camera, Environment, EnvironmentId, Instance, Light, LightSetId, MaterialId, MeshId, Node,
+    NodeId, Placement,
+};
+
+use super::budget::Budget;
+use super::buffers::Buffers;
+use super::camera::camera;
+use super::document::{Document, ExactCamera, ExactNode};
+use super::error::ReadError;
+use super::frame::{copies, parent_from_local};
+use super::iv::Iv;
+use super::light::Lamp;
+use super::material::Materials;
+use super::mesh::Meshes;
+
+/// The class of a group that does not name its own.
+const GROUP_CLASS: &str = "Separator";
+
+/// The scene being made.
+pub(crate) struct Walk<'a> {
+    pub(crate) document: &'a Document<'a>,
+    pub(crate) buffers: &'a Buffers<'a>,
+    pub(crate) by_ivory: bool,
+    pub(crate) meshes: Meshes<'a>,
+    pub(crate) materials: Materials<'a>,
+    pub(crate) budget: Budget,
+    pub(crate) environments: Vec<Environment>,
+    /// How many light sets the file has.
+    pub(crate) light_sets: usize,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) instances: Vec<Instance>,
+    /// With the number of each in the file.
+    pub(crate) lights: Vec<(usize, Light)>,
+    pub(crate) cameras: Vec<(usize, Camera)>,
+    classes: Vec<Arc<str>>,
+    visited: Vec<bool>,
+}
+
+/// A node still to be visited.
+struct Open {
+    node: usize,
+    parent: Option<NodeId>,
+    world_from_parent: DAffine3,
+    depth: usize,
+}
+
+/// Something to be placed.
+enum Item {
+    Shape(MeshId, MaterialId),
+    Light(usize, Lamp),
+    Camera(usize),
+}
+
+impl<'a> Walk<'a> {
+    pub(crate) fn new(
+        document: &'a Document<'a>,
+        buffers: &'a Buffers<'a>,
+        by_ivory: bool,
+        materials: Materials<'a>,
+        budget: Budget,
+    ) -> Self {
+        Self {
+            document,
+            buffers,
+            by_ivory,
+            meshes: Meshes::new(document, buffers),
+            materials,
+            budget,
+            environments: Vec::new(),
+            light_sets: 0,
+            nodes: Vec::new(),
+            instances: Vec::new(),
+            lights: Vec::new(),
+            cameras: Vec::new(),
+            classes: vec![GROUP_CLASS.into()],
+            visited: vec![false; document.root.nodes.len()],
+        }
+    }
+
+    /// Visits all below the roots, in their order.
+    pub(crate) fn run(&mut self, roots: &[Index<JsonNode>]) -> Result<(), ReadError> {
+        let mut stack = Vec::new();
+        let push = |stack: &mut Vec<Open>, children: &[Index<JsonNode>], open: &Open| {
+            stack.extend(children.iter().rev().map(|child| Open {
+                node: child.value(),
+                ..*open
+            }));
+        };
+        let world = Open {
+            node: 0,
+            parent: None,
+            world_from_parent: DAffine3::IDENTITY,
+            depth: 1,
+        };
+        push(&mut stack, roots, &world);
+        while let Some(open) = stack.pop() {
+            self.budget.check_depth(open.depth)?;
+            if let Some(below) = self.visit(&open)? {
+                let children = self.document.root.nodes[open.node].children.as_deref();
+                push(&mut stack, children.unwrap_or_default(), &below);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a node; gives what its children hang on, if it has any.
+    fn visit(&mut self, open: &Open) -> Result<Option<Open>, ReadError> {
+        let number = open.node;
+        let broken = |reason| ReadError::broken("node", number, reason);
+        let document = self.document;
+        let (Some(source), Some(visited)) = (
+            document.root.nodes.get(number),
+            self.visited.get_mut(number),
+        ) else {
+            return Err(broken("it does not exist"));
+        };
+        if std::mem::replace(visited, true) {
+            return Err(broken("it has several parents, or is below itself"));
+        }
+        self.budget.take_items(1)?;
+        let none = ExactNode::default();
+        let exact = document.exact.nodes.get(number).unwrap_or(&none);
+        let parent_from_local = parent_from_local(exact);
+        let world_from_local = open.world_from_parent * parent_from_local;
+        if !(parent_from_local.is_finite() && world_from_local.is_finite()) {
+            return Err(broken("its transform is not finite"));
+        }
+        let iv = Iv::of(&source.extras).unwrap_or_default();
+        let (copies, items) = self.items(source)?;
+        let name: Option<Arc<str>> = source.name.as_deref().map(Into::into);
+        let has_children = source.children.as_ref().is_some_and(|c| !c.is_empty());
+        let notes: Vec<Arc<str>> = (iv.list("notes").iter())
+            .filter_map(|note| Some(note.as_str()?.into()))
+            .collect();
+        let says_more = !notes.is_empty() || iv.word("type").is_some();
+        let mut placement = Placement {
+            node: open.parent,
+            parent_from_local,
+            world_from_local,
+            name,
+            pos: SourcePos::default(),
+        };
+        if !has_children && !says_more && (items.len(), copies.len()) == (1, 1) {
+            placement.parent_from_local = parent_from_local * copies[0];
+            placement.world_from_local = world_from_local * copies[0];
+            for item in items {
+                self.place(item, placement.clone(), &iv)?;
+            }
+            return Ok(None);
+        }
+        if !has_children && !says_more && items.is_empty() && placement.name.is_none() {
+            return Ok(None);
+        }
+        let class = self.class(iv.word("type"));
+        let group = NodeId(self.nodes.len() as u32);
+        self.nodes.push(Node {
+            parent: open.parent,
+            name: placement.name.take(),
+            class,
+            notes,
+            parent_from_local,
+            pos: SourcePos::default(),
+        });
+        placement.node = Some(group);
+        self.place_all(items, &copies, &placement, &iv)?;
+        Ok(has_children.then_some(Open {
+            node: number,
+            parent: Some(group),
+            world_from_parent: world_from_local,
+            depth: open.depth + 1,
+        }))
+    }
+
+    /// What a node holds, and the frames of the copies of its mesh.
+    fn items(&mut self, source: &JsonNode) -> Result<(Vec<DAffine3>, Vec<Item>), ReadError> {
+        let document = self.document;
+        let mut items = Vec::new();
+        let mut frames = vec![DAffine3::IDENTITY];
+        if let Some(index) = source.mesh {
+            let missing = ReadError::broken("mesh", index.value(), "it does not exist");
+            let mesh = document.root.get(index).ok_or(missing)?;
+            frames = copies(source, document, self.buffers, &mut self.budget)?;
+            for primitive in &mesh.primitives {
+                self.budget.take_items(frames.len())?;
+                let wants = self.materials.wants(primitive.material)?;
+                let made = self.meshes.primitive(primitive, &wants, &mut self.budget)?;
+                if let Some(mesh) = made.filter(|_| !frames.is_empty()) {
+                    let material = self.materials.material(
+                        primitive.material,
+                        self.buffers,
+                        &mut self.budget,
+                    )?;
+                    items.push(Item::Shape(mesh, material));
+                }
+            }
+        }
+        let extensions = source.extensions.as_ref();
+        if let Some(light) = extensions.and_then(|e| e.khr_lights_punctual.as_ref()) {
+            let index = light.light;
+            let missing = ReadError::broken("light", index.value(), "it does not exist");
+            let light = document.root.get(index).ok_or(missing)?;
+            let lamp = Lamp::new(light, self.by_ivory);
+            items.extend(lamp.map(|lamp| Item::Light(index.value(), lamp)));
+        }
+        items.extend(source.camera.map(|camera| Item::Camera(camera.value())));
+        Ok((frames, items))
+    }
+
+    /// Shapes at each of the copies, all else once.
+    fn place_all(
+        &mut self,
+        items: Vec<Item>,
+        copies: &[DAffine3],
+        at: &Placement,
+        iv: &Iv,
+    ) -> Result<(), ReadError> {
+        for item in items {
+            let Item::Shape(mesh, material) = item else {
+                let parent_from_local = DAffine3::IDENTITY;
+                let placement = Placement {
+                    parent_from_local,
+                    ..at.clone()
+                };
+                self.place(item, placement, iv)?;
+                continue;
+            };
+            for copy in copies {
+                let placement = Placement {
+                    parent_from_local: *copy,
+                    world_from_local: at.world_from_local * *copy,
+                    ..at.clone()
+                };
+                self.place(Item::Shape(mesh, material), placement, iv)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn place(&mut self, item: Item, placement: Placement, iv: &Iv) -> Result<(), ReadError> {
+        if !(placement.world_from_local.is_finite() && placement.parent_from_local.is_finite()) {
+            let reason = "the transform of a copy is not finite";
+            let number = self.instances.len();
+            return Err(ReadError::broken("instance", number, reason));
+        }
+        match item {
+            Item::Shape(mesh, material) => {
+                let environment = iv.index("environment").unwrap_or(0);
+                let light_set = iv.index("lightSet").unwrap_or(0);
+                let within = |i: usize, count: usize| if i < count { i as u32 } else { 0 };
+                self.instances.push(Instance {
+                    placement,
+                    mesh,
+                    material,
+                    light_set: LightSetId(within(light_set, self.light_sets)),
+                    environment: EnvironmentId(within(environment, self.environments.len())),
+                });
+            }
+            Item::Light(number, lamp) => {
+                let light = lamp.placed(placement, &mut self.environments);
+                self.lights.push((number, light));
+            }
+            Item::Camera(number) => {
+                let found = self.document.root.cameras.get(number);
+                let missing = ReadError::broken("camera", number, "it does not exist");
+                let none = ExactCamera::default();
+                let exact = self.document.exact.cameras.get(number).unwrap_or(&none);
+                let made = camera(found.ok_or(missing)?, exact, self.by_ivory, placement);
+                self.cameras.extend(made.map(|camera| (number, camera)));
+            }
+        }
+        Ok(())
+    }
+
+    /// One text for each class name.
+    fn class(&mut self, name: Option<&str>) -> Arc<str> {
+        let name = name.unwrap_or(GROUP_CLASS);
+        if let Some(known) = self.classes.iter().find(|known| &***known == name) {
+            return Arc::clone(known);
+        }
+        let class: Arc<str> = name.into();
+        // Real files name a few; any number would make the search slow.
+        if self.classes.len() < 100 {
+            self.classes.push(Arc::clone(&class));
+        }
+        class
+    }
+}

@@ -1,0 +1,191 @@
+//! glTF 2.0 into the scene that all consumers use: what [`write_glb`](crate::write_glb) wrote, and
+//! ordinary files of others.
+//!
+//! A total function: any bytes give a scene that keeps its guarantees, or an error, in bounded time
+//! and memory. Where `extras.iv` has Inventor's own values they are taken; else glTF's are
+//! approximated, as `material` and `light` say. Left out are animation, skins, morph targets,
+//! further maps of a material than the base colour, and images' alpha where a material says it is
+//! opaque.
+
+mod accessor;
+mod budget;
+mod buffers;
+mod camera;
+mod document;
+mod error;
+mod frame;
+mod hierarchy;
+mod iv;
+mod light;
+mod material;
+mod mesh;
+mod normals;
+mod texture;
+mod topology;
+
+use std::path::Path;
+
+use gltf::json::Index;
+use gltf::json::Node as JsonNode;
+use scenegraph::Loader;
+use scenegraph::scene::{Environment, LightId, Scene};
+
+use budget::Budget;
+use buffers::Buffers;
+use document::Document;
+use hierarchy::Walk;
+use iv::Iv;
+use material::Materials;
+use texture::Textures;
+
+pub use budget::ReadLimits;
+pub use error::ReadError;
+
+/// A glTF file as a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// The scene; it passes [`Scene::check`]. Places in the source are not known.
+    pub scene: Scene,
+    /// What was left out.
+    pub warnings: Vec<String>,
+}
+
+/// Reads a `.glb`, or the text of a `.gltf`. `name` is what the file is called; buffers in files of
+/// their own are asked of `loader`, looked for first in the folder `beside`. Images in files are
+/// named in the scene and not opened.
+///
+/// # Errors
+///
+/// Says what is wrong with the bytes, or what they need and is not to be had.
+pub fn read_gltf(
+    bytes: &[u8],
+    name: &str,
+    beside: &Path,
+    loader: &dyn Loader,
+    limits: &ReadLimits,
+) -> Result<Model, ReadError> {
+    let document = Document::parse(bytes)?;
+    let mut budget = Budget::new(*limits);
+    budget.grow(bytes.len() as u64)?;
+    let buffers = Buffers::new(&document, beside, loader, &mut budget)?;
+    let by_ivory = Iv::of(&document.root.asset.extras).is_some();
+    let textures = Textures::new(&document, beside);
+    let materials = Materials::new(&document, by_ivory, textures);
+    let mut walk = Walk::new(&document, &buffers, by_ivory, materials, budget);
+
+    let shown = Shown::of(&document)?;
+    walk.environments = shown
+        .iv
+        .objects("environments")
+        .map(|e| e.environment())
+        .collect();
+    if walk.environments.is_empty() {
+        walk.environments.push(Environment::default());
+    }
+    let light_sets = shown.iv.list("lightSets");
+    walk.light_sets = light_sets.len();
+    walk.run(&shown.roots)?;
+
+    // The file's order is that of the scene it was written from.
+    walk.lights.sort_by_key(|(number, _)| *number);
+    walk.cameras.sort_by_key(|(number, _)| *number);
+    let numbers: Vec<usize> = walk.lights.iter().map(|(number, _)| *number).collect();
+    let light_sets = read_light_sets(light_sets, &numbers, &mut walk.budget)?;
+    let mut warnings = left_out(&document);
+    warnings.append(&mut walk.materials.textures.warnings);
+    let scene = Scene {
+        nodes: walk.nodes,
+        instances: walk.instances,
+        meshes: walk.meshes.meshes,
+        materials: walk.materials.materials,
+        textures: walk.materials.textures.textures,
+        lights: walk.lights.into_iter().map(|(_, light)| light).collect(),
+        cameras: walk.cameras.into_iter().map(|(_, camera)| camera).collect(),
+        light_sets,
+        environments: walk.environments,
+        files: vec![name.into()],
+    };
+    debug_assert_eq!(scene.check(), Vec::new());
+    Ok(Model { scene, warnings })
+}
+
+/// What of the file is shown: its scene, or if it has none, all nodes.
+struct Shown {
+    roots: Vec<Index<JsonNode>>,
+    iv: Iv,
+}
+
+impl Shown {
+    fn of(document: &Document) -> Result<Self, ReadError> {
+        let root = &document.root;
+        let number = root.scene.map_or(0, |scene| scene.value());
+        if let Some(scene) = root.scenes.get(number) {
+            let iv = Iv::of(&scene.extras).unwrap_or_default();
+            return Ok(Self {
+                roots: scene.nodes.clone(),
+                iv,
+            });
+        }
+        if root.scene.is_some() {
+            return Err(ReadError::broken("scene", number, "it does not exist"));
+        }
+        let mut is_child = vec![false; root.nodes.len()];
+        for child in root
+            .nodes
+            .iter()
+            .filter_map(|n| n.children.as_ref())
+            .flatten()
+        {
+            if let Some(is_child) = is_child.get_mut(child.value()) {
+                *is_child = true;
+            }
+        }
+        let tops = (0..root.nodes.len()).filter(|&i| !is_child[i]);
+        Ok(Self {
+            roots: tops.map(|i| Index::new(i as u32)).collect(),
+            iv: Iv::default(),
+        })
+    }
+}
+
+/// Which lights reach what: the sets of the file, or one of all lights. `numbers` are those of the
+/// scene's lights in the file, ascending; a light that is placed twice counts for both.
+fn read_light_sets(
+    sets: &[serde_json::Value],
+    numbers: &[usize],
+    budget: &mut Budget,
+) -> Result<Vec<Vec<LightId>>, ReadError> {
+    let all = || (0..numbers.len() as u32).map(LightId).collect();
+    if sets.is_empty() {
+        return Ok(vec![all()]);
+    }
+    let mut read = Vec::with_capacity(sets.len());
+    for set in sets {
+        let mut lights = Vec::new();
+        let members = set.as_array().map_or(&[][..], Vec::as_slice);
+        for number in members.iter().filter_map(serde_json::Value::as_u64) {
+            let start = numbers.partition_point(|&n| (n as u64) < number);
+            let end = numbers.partition_point(|&n| n as u64 <= number);
+            budget.take(size_of::<LightId>() as u64 * (end - start) as u64)?;
+            lights.extend((start as u32..end as u32).map(LightId));
+        }
+        read.push(lights);
+    }
+    Ok(read)
+}
+
+/// What the file has and the scene has not.
+fn left_out(document: &Document) -> Vec<String> {
+    let root = &document.root;
+    let has_targets = |mesh: &gltf::json::Mesh| mesh.primitives.iter().any(|p| p.targets.is_some());
+    let rows = [
+        ("animations are not played", !root.animations.is_empty()),
+        ("skins are shown at rest", !root.skins.is_empty()),
+        (
+            "morph targets are not shown",
+            root.meshes.iter().any(has_targets),
+        ),
+    ];
+    let present = rows.iter().filter(|(_, present)| *present);
+    present.map(|(text, _)| (*text).to_owned()).collect()
+}
