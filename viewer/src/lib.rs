@@ -3,7 +3,9 @@
 //! It needs no window; the command and later the window are two callers of the same functions.
 
 pub mod bounds;
+pub mod compare;
 pub mod content;
 pub mod shader;
 pub mod texture;
+pub mod view;
 pub mod volume;
