@@ -22,14 +22,11 @@ use std::fmt;
 use glam::{DAffine3, DQuat, DVec3};
 use scenegraph::scene::{Camera, Projection, Scene, ViewportMapping};
 
-use super::{Lens, Region, View, direction, looking};
+use super::{Lens, Region, TAN_RANGE, View, direction, looking};
 
 /// Defaults of `heightAngle` and `height`, for values that are not positive and finite.
 const DEFAULT_HEIGHT_ANGLE_RAD: f64 = std::f64::consts::FRAC_PI_4;
 const DEFAULT_HEIGHT: f64 = 2.0;
-/// `tan(heightAngle / 2)` is kept in this range: at its ends an image of 1000 pixels shows a
-/// pixel's width at a thousand times that distance, or all but 0.1 degrees of a half space.
-const TAN_RANGE: (f64, f64) = (1e-6, 1e3);
 /// An aspect ratio beyond these shows less than a pixel across in any image.
 const ASPECT_RANGE: (f64, f64) = (1e-6, 1e6);
 

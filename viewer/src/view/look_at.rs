@@ -4,7 +4,7 @@ use std::fmt;
 
 use glam::{DQuat, DVec3};
 
-use super::{Lens, View, direction, looking};
+use super::{Lens, TAN_RANGE, View, direction, looking};
 
 /// Sine of the angle to the vertical below which a direction counts as vertical: the horizontal
 /// part of a direction between points that are typed with ten digits is then noise.
@@ -22,7 +22,10 @@ impl View {
             eye,
             orientation: upright(look_at - eye)?,
             lens: Lens::Perspective {
-                tan_half_height: (fovy_deg * 0.5).to_radians().tan(),
+                tan_half_height: (fovy_deg * 0.5)
+                    .to_radians()
+                    .tan()
+                    .clamp(TAN_RANGE.0, TAN_RANGE.1),
             },
         })
     }
@@ -157,6 +160,19 @@ mod tests {
                 panic!("{text}: not a perspective view");
             };
             assert!((tan_half_height - tan).abs() < 1e-14, "{text}");
+        }
+    }
+
+    #[test]
+    fn extreme_fields_of_view_stay_in_range() {
+        for (text, tan) in [
+            ("0 0 5 0 0 0 4e-324", TAN_RANGE.0),
+            ("0 0 5 0 0 0 179.9999999", TAN_RANGE.1),
+        ] {
+            let Lens::Perspective { tan_half_height } = parse_look_at(text).unwrap().lens else {
+                panic!("{text}: not a perspective view");
+            };
+            assert_eq!(tan_half_height, tan, "{text}");
         }
     }
 

@@ -39,6 +39,10 @@ pub enum Lens {
     },
 }
 
+/// Tangents of half a field of view are kept in this range: at its ends an image of 1000 pixels
+/// shows a pixel's width at a thousand times that distance, or all but 0.1 degrees of a half space.
+pub(crate) const TAN_RANGE: (f64, f64) = (1e-6, 1e3);
+
 /// An eye, where it looks, and its lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
