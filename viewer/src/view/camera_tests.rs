@@ -192,17 +192,23 @@ fn any_camera_gives_a_finite_view() {
 }
 
 #[test]
-fn angles_without_meaning_are_the_default() {
-    for angle in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let projection = Projection::Perspective {
-            height_angle_rad: angle,
-        };
+fn angles_without_meaning() {
+    let default = 0.414_213_562_373_095;
+    let rows = [
+        (0.0, default),
+        (-1.0, default),
+        (f64::NAN, default),
+        (f64::INFINITY, default),
+        (PI, 1e3),
+        (7.0, 1e3),
+        (1e-9, 1e-6),
+    ];
+    for (height_angle_rad, tan) in rows {
+        let projection = Projection::Perspective { height_angle_rad };
         let camera = camera(projection, ViewportMapping::AdjustCamera);
         let (view, _) = View::from_scene_camera(&camera, 10, 10);
-        assert!(
-            (half_of(view.lens) - 0.414_213_562_373_095).abs() < 1e-14,
-            "{angle}"
-        );
+        let got = half_of(view.lens);
+        assert!((got - tan).abs() < 1e-14, "{height_angle_rad}: {got}");
     }
 }
 

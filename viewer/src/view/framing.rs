@@ -40,7 +40,7 @@ const POINT_SHARE: f64 = 1.0 / (1_u64 << 40) as f64;
 
 impl View {
     /// A perspective view that shows the whole of `bounds` in an image of this aspect ratio, as
-    /// large as its default angle allows. An empty box is taken as a cube of side 2 around the
+    /// large as Inventor's default angle allows; `aspect` is positive and finite. An empty box is taken as a cube of side 2 around the
     /// origin, a point as one around the point. Finite for any box.
     #[must_use]
     pub fn of_whole(bounds: &Aabb, up: Up, aspect: f64) -> Self {
@@ -97,20 +97,19 @@ fn three_quarter(up: Up) -> DQuat {
 ///
 /// With depth d = -z, the ray plane on the right passes an eye e where x - e.x = tan (d - e.d). The
 /// point that needs most is the one with the largest x - tan d, and so for each side; the eye's
-/// place across is then the middle, and its depth the least that the narrower axis allows.
+/// place across is then the middle, and its depth the least that the narrower axis allows. Being
+/// between two opposite ray planes, every point is in front of the eye.
 fn eye_around(points: &[DVec3], tan: DVec2) -> DVec3 {
     let mut most = DVec2::NEG_INFINITY;
     let mut least = DVec2::INFINITY;
-    let mut depth = f64::INFINITY;
     for p in points {
         let across = p.truncate();
         let reach = tan * -p.z;
         most = most.max(across - reach);
         least = least.min(across + reach);
-        depth = depth.min(-p.z);
     }
     let by_axis = (most - least) / (tan * -2.0);
-    let eye_depth = by_axis.min_element().min(depth);
+    let eye_depth = by_axis.min_element();
     ((most + least) * 0.5).extend(-eye_depth)
 }
 

@@ -226,6 +226,10 @@ pub(crate) mod tests {
             orientation: looking(v(-1.0, 0.0, -1.0), DVec3::Z).unwrap(),
             ..view
         };
+        let upwards = View {
+            orientation: looking(v(-1.0, 0.0, 1.0), DVec3::Z).unwrap(),
+            ..view
+        };
         let unit = Aabb {
             min: v(-1.0, -2.0, -3.0),
             max: v(1.0, 2.0, 3.0),
@@ -234,6 +238,7 @@ pub(crate) mod tests {
         let rows = [
             (view, unit, Some((9.0, 11.0))),
             (oblique, unit, Some((6.0 * c, 14.0 * c))),
+            (upwards, unit, Some((6.0 * c, 14.0 * c))),
             (view, Aabb::EMPTY, None),
             (
                 view,
