@@ -39,12 +39,6 @@ impl SceneBounds {
     }
 }
 
-/// The world box of each instance: [`SceneBounds::instances`] alone.
-#[must_use]
-pub fn instance_boxes(scene: &Scene) -> Vec<Aabb> {
-    SceneBounds::new(scene).instances
-}
-
 /// The box in the local frame around all vertices that an index uses.
 #[must_use]
 pub fn mesh_box(mesh: &Mesh) -> Aabb {

@@ -18,7 +18,10 @@ fn main() -> ExitCode {
     impl convert::TextureLoader for L {
         fn load(&self, beside: &std::path::Path, name: &str) -> Result<Vec<u8>, String> {
             use scenegraph::Loader;
-            self.0.load(beside, name).map(|l| l.bytes).map_err(|e| e.to_string())
+            self.0
+                .load(beside, name)
+                .map(|l| l.bytes)
+                .map_err(|e| e.to_string())
         }
     }
     let images = viewer::texture::Images::load(&scene, &L(files));
@@ -29,16 +32,26 @@ fn main() -> ExitCode {
         Some(c) if args.len() < 4 => viewer::view::View::from_scene_camera(c, w, h),
         _ => {
             let region = viewer::view::Region::whole(w, h);
-            (viewer::view::View::of_whole(&renderer.content().bounds, viewer::view::framing::Up::Z, region.aspect), region)
+            (
+                viewer::view::View::of_whole(
+                    &renderer.content().bounds,
+                    viewer::view::framing::Up::Z,
+                    region.aspect,
+                ),
+                region,
+            )
         }
     };
     let mut settings = viewer::frame::Settings::default();
-    settings.background_srgb = [[0.4,0.5,0.6],[0.8,0.8,0.8]];
+    settings.background_srgb = [[0.4, 0.5, 0.6], [0.8, 0.8, 0.8]];
     for _ in 0..2 {
         let (plan, report) = renderer.draw(&view, &region, (w, h), &settings).unwrap();
         eprintln!("{}\n{:?}", plan.brief(), report);
     }
     let pixels = renderer.read().unwrap();
-    image::RgbaImage::from_raw(w, h, pixels).unwrap().save(out).unwrap();
+    image::RgbaImage::from_raw(w, h, pixels)
+        .unwrap()
+        .save(out)
+        .unwrap();
     ExitCode::SUCCESS
 }

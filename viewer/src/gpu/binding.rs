@@ -114,7 +114,10 @@ pub const STORAGE: BindingType = BindingType::Buffer {
 };
 
 /// A texture of one sample.
-pub fn texture(sample_type: TextureSampleType, view_dimension: TextureViewDimension) -> BindingType {
+pub fn texture(
+    sample_type: TextureSampleType,
+    view_dimension: TextureViewDimension,
+) -> BindingType {
     BindingType::Texture {
         sample_type,
         view_dimension,

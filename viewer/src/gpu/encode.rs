@@ -513,7 +513,11 @@ impl Recorder<'_> {
         );
         pass.set_scissor_rect(r.x, r.y, r.width, r.height);
         pass.set_bind_group(0, &self.renderer.frame_data.scene_group, &[]);
-        pass.set_bind_group(1, &self.renderer.frame_data.pass_group, &[light * PASS_STRIDE]);
+        pass.set_bind_group(
+            1,
+            &self.renderer.frame_data.pass_group,
+            &[light * PASS_STRIDE],
+        );
         pass
     }
 

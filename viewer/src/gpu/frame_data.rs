@@ -46,7 +46,12 @@ impl Grown {
         let size = contents.len() as u64;
         let is_small = size > self.buffer.size();
         if is_small {
-            self.buffer = buffer(gpu, self.label, size.next_multiple_of(256), self.buffer.usage());
+            self.buffer = buffer(
+                gpu,
+                self.label,
+                size.next_multiple_of(256),
+                self.buffer.usage(),
+            );
         }
         gpu.queue.write_buffer(&self.buffer, 0, contents);
         is_small
@@ -114,11 +119,12 @@ impl FrameData {
                 )
             })
             .collect();
-        let far = view.depth_bounds(&content.bounds).map_or(0.0, |(_, far)| far);
+        let far = view
+            .depth_bounds(&content.bounds)
+            .map_or(0.0, |(_, far)| far);
         let surfaces: Vec<shader::Surface> =
             content.surfaces.iter().map(|s| surface(s, far)).collect();
-        let lights: Vec<shader::Light> =
-            plan.lights.iter().map(|l| light(l, view.eye)).collect();
+        let lights: Vec<shader::Light> = plan.lights.iter().map(|l| light(l, view.eye)).collect();
         let passes: Vec<u8> = (0..plan.lights.len().max(1) as u32)
             .flat_map(|i| {
                 let values = shader::PassValues {
@@ -207,7 +213,9 @@ pub fn frame(
     let is_parallel = matches!(view.lens, Lens::Orthographic { .. });
     let (width, height) = (width as f32, height as f32);
     shader::Frame {
-        clip_from_rel: (clip_from_view * view_from_rel).as_mat4().to_cols_array_2d(),
+        clip_from_rel: (clip_from_view * view_from_rel)
+            .as_mat4()
+            .to_cols_array_2d(),
         view_axis: xyzw(view.forward(), if is_parallel { 1.0 } else { 0.0 }),
         viewport: [width, height, 1.0 / width, 1.0 / height],
         eye_in_rays: xyzw(view.eye - rays_origin, 0.0),

@@ -451,10 +451,7 @@ fn multisample(count: u32) -> wgpu::MultisampleState {
     }
 }
 
-fn pipeline_layout(
-    gpu: &Gpu,
-    groups: &[Option<&wgpu::BindGroupLayout>],
-) -> wgpu::PipelineLayout {
+fn pipeline_layout(gpu: &Gpu, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
     gpu.device
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,

@@ -56,14 +56,20 @@ impl Targets {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let bound = wgpu::TextureUsages::TEXTURE_BINDING;
         let color = texture("light", COLOR_FORMAT, samples, attachment | bound);
-        let depth = texture("depth and stencil", DEPTH_FORMAT, samples, attachment | bound);
+        let depth = texture(
+            "depth and stencil",
+            DEPTH_FORMAT,
+            samples,
+            attachment | bound,
+        );
         let output = texture(
             "image",
             OUTPUT_FORMAT,
             1,
             attachment | bound | wgpu::TextureUsages::COPY_SRC,
         );
-        let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let view =
+            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let pixels = u64::from(width) * u64::from(height);
         Self {
             width,

@@ -135,7 +135,11 @@ impl ShaderKey {
             is_specular,
             is_parallel: is_parallel && is_specular,
             has_colors: look.has_colors && (shows_base || blends),
-            texture: look.texture,
+            // Only REPLACE asks whether the image has an alpha of its own.
+            texture: look.texture.map(|texture| TextureUse {
+                has_alpha: texture.has_alpha && texture.model == TextureUseModel::Replace,
+                ..texture
+            }),
             fog: look.fog,
         }
     }

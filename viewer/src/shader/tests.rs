@@ -27,7 +27,6 @@ fn every_reachable_key_gives_a_valid_shader_of_its_own() {
         if let Some(other) = keys_by_text.insert(text.clone(), key) {
             panic!("{key:?} and {other:?} give the same text");
         }
-        // One fog in four is enough for the validator: fog lines stand alone.
         if let Err(error) = validated(&text) {
             panic!("{key:?}\n{error}\n{text}");
         }
@@ -52,7 +51,8 @@ fn fixed_shaders_are_valid() {
 #[test]
 fn structs_have_the_same_layout_in_rust_and_wgsl() {
     let module = validated(TYPES).unwrap();
-    let in_wgsl: BTreeMap<&str, (usize, Vec<(String, usize)>)> = module
+    type Layout = (usize, Vec<(String, usize)>);
+    let in_wgsl: BTreeMap<&str, Layout> = module
         .types
         .iter()
         .filter_map(|(_, of)| match &of.inner {

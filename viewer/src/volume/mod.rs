@@ -61,6 +61,15 @@ pub use extract::{Method, Volume, extract};
 pub use facing::{CastRule, component_signs, facing};
 pub use topology::CasterMesh;
 /// Temporary.
-pub fn zpass_is_safe(_: &geometry::bounds::Aabb, _: glam::DVec3, _: &[glam::DVec3; 4], _: glam::DVec4) -> bool { false }
+pub fn zpass_is_safe(
+    _: &geometry::bounds::Aabb,
+    _: glam::DVec3,
+    _: &[glam::DVec3; 4],
+    _: glam::DVec4,
+) -> bool {
+    false
+}
 /// Temporary.
-pub fn volume_may_touch(_: &geometry::bounds::Aabb, _: glam::DVec4, _: &[glam::DVec4]) -> bool { true }
+pub fn volume_may_touch(_: &geometry::bounds::Aabb, _: glam::DVec4, _: &[glam::DVec4]) -> bool {
+    true
+}
