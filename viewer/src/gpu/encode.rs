@@ -167,8 +167,8 @@ impl Renderer {
         let numbers = frame_data::frame(
             view,
             view.clip_from_view(region.aspect, range),
-            (region.width, region.height),
-            view.eye,
+            region,
+            self.content.bounds.center(),
         );
         self.frame_data.write(
             &self.gpu,

@@ -7,7 +7,7 @@ use super::device::Gpu;
 use crate::content::{Content, LightShape, Surface, WorldLight};
 use crate::frame::Plan;
 use crate::shader;
-use crate::view::{Lens, View};
+use crate::view::{Lens, Region, View};
 
 /// Distance between the values of two passes in their buffer: the largest alignment that any
 /// device asks for.
@@ -206,12 +206,13 @@ fn rel_from(view: &View, world_from_mesh: &DAffine3) -> DAffine3 {
 pub fn frame(
     view: &View,
     clip_from_view: DMat4,
-    (width, height): (u32, u32),
+    region: &Region,
     rays_origin: DVec3,
 ) -> shader::Frame {
     let view_from_rel = DMat4::from_quat(view.orientation.conjugate());
     let is_parallel = matches!(view.lens, Lens::Orthographic { .. });
-    let (width, height) = (width as f32, height as f32);
+    let (width, height) = (region.width as f32, region.height as f32);
+    let clip_from_rel = clip_from_view * view_from_rel;
     shader::Frame {
         clip_from_rel: (clip_from_view * view_from_rel)
             .as_mat4()
@@ -219,6 +220,8 @@ pub fn frame(
         view_axis: xyzw(view.forward(), if is_parallel { 1.0 } else { 0.0 }),
         viewport: [width, height, 1.0 / width, 1.0 / height],
         eye_in_rays: xyzw(view.eye - rays_origin, 0.0),
+        rel_from_clip: clip_from_rel.inverse().as_mat4().to_cols_array_2d(),
+        region: [region.x, region.y, region.width, region.height],
     }
 }
 

@@ -13,6 +13,10 @@ pub const TYPES: &str = include_str!("wgsl/types.wgsl");
 /// Shadow volumes; stands behind [`TYPES`].
 pub const VOLUME: &str = include_str!("wgsl/volume.wgsl");
 
+/// Depth as a light sees it; stands behind [`TYPES`].
+pub const MAP: &str = include_str!("wgsl/map.wgsl");
+/// Shadow volumes by compute; stands alone.
+pub const EXTRACT: &str = include_str!("wgsl/extract.wgsl");
 /// A gradient behind everything.
 pub const BACKGROUND: &str = include_str!("wgsl/background.wgsl");
 
@@ -54,6 +58,24 @@ pub fn emit_present(samples: u32) -> String {
         .replace("SAMPLES", &samples.to_string())
     // A texture of one sample has a mip level in its place, and only level 0.
 }
+
+/// The text of the rays to a light, for images of so many samples a pixel.
+pub fn emit_rays(samples: u32) -> String {
+    let (texture, places) = if samples > 1 {
+        ("texture_depth_multisampled_2d", STANDARD_PLACES)
+    } else {
+        ("texture_depth_2d", "vec2f(0.5)")
+    };
+    let rays = include_str!("wgsl/rays.wgsl")
+        .replace("DEPTH_TYPE", texture)
+        .replace("SAMPLE_PLACES", places)
+        .replace("SAMPLES", &samples.to_string());
+    format!("{TYPES}{rays}")
+}
+
+/// Where the four samples of a pixel are: the standard pattern, which all interfaces share.
+const STANDARD_PLACES: &str = "(array(vec2f(0.375, 0.125), vec2f(0.875, 0.375), \
+                               vec2f(0.125, 0.625), vec2f(0.625, 0.875))[sample])";
 
 const POWER: &str = "
 // x^e for x >= 0, with 0^0 = 1.
@@ -157,6 +179,13 @@ struct ShadowViews {
 @group(3) @binding(0) var shadow_map: texture_depth_2d_array;
 @group(3) @binding(1) var shadow_sampler: sampler_comparison;
 @group(3) @binding(2) var<uniform> shadow_views: ShadowViews;
+
+fn in_map(rel: vec3f, face: u32) -> f32 {
+    let p = shadow_views.map_from_rel[face] * vec4f(rel, 1.0);
+    let h = p.xyz / p.w;
+    let at = h.xy * vec2f(0.5, -0.5) + vec2f(0.5);
+    return textureSampleCompareLevel(shadow_map, shadow_sampler, at, face, h.z);
+}
 "
         }
         Some(ShadowLookup::Mask) => {
@@ -318,9 +347,7 @@ fn is_lit_at(in: Varying, sample: u32) -> f32 {
         ShadowLookup::Map => text.push_str(
             "
 fn is_lit_at(in: Varying, sample: u32) -> f32 {
-    let p = shadow_views.map_from_rel[0] * vec4f(in.rel, 1.0);
-    let h = p.xyz / p.w;
-    return textureSampleCompareLevel(shadow_map, shadow_sampler, h.xy, 0, h.z);
+    return in_map(in.rel, 0u);
 }
 ",
         ),
@@ -335,9 +362,7 @@ fn is_lit_at(in: Varying, sample: u32) -> f32 {
     } else if a.z > a.x {
         face = select(4u, 5u, d.z < 0.0);
     }
-    let p = shadow_views.map_from_rel[face] * vec4f(in.rel, 1.0);
-    let h = p.xyz / p.w;
-    return textureSampleCompareLevel(shadow_map, shadow_sampler, h.xy, face, h.z);
+    return in_map(in.rel, face);
 }
 ",
         ),

@@ -31,8 +31,12 @@ layouts! {
         view_axis: [f32; 4],
         /// Width, height, and their inverses.
         viewport: [f32; 4],
-        /// From rel to the frame of the ray structures.
+        /// The eye in the frame of the ray structures.
         eye_in_rays: [f32; 4],
+        /// Columns of the inverse of `clip_from_rel`.
+        rel_from_clip: [[f32; 4]; 4],
+        /// x, y, width, height of the part of the image that is drawn.
+        region: [u32; 4],
     }
     /// An object's frame.
     Instance {

@@ -8,6 +8,6 @@ mod layout;
 #[cfg(test)]
 mod tests;
 
-pub use emit::{BACKGROUND, TYPES, VOLUME, emit, emit_present};
+pub use emit::{BACKGROUND, EXTRACT, MAP, TYPES, VOLUME, emit, emit_present, emit_rays};
 pub use key::{Contribution, LightForm, LightKey, Shade, ShaderKey, ShadowLookup};
 pub use layout::{Frame, Instance, Light, PassValues, Surface, layouts};

@@ -37,6 +37,10 @@ fn every_reachable_key_gives_a_valid_shader_of_its_own() {
 fn fixed_shaders_are_valid() {
     let texts = [
         format!("{TYPES}{VOLUME}"),
+        format!("{TYPES}{MAP}"),
+        EXTRACT.to_owned(),
+        emit_rays(1),
+        emit_rays(4),
         emit_present(1),
         emit_present(4),
         include_str!("wgsl/background.wgsl").to_owned(),

@@ -7,8 +7,12 @@ struct Frame {
     view_axis: vec4f,
     // Width and height in pixels; their inverses.
     viewport: vec4f,
-    // From rel to the frame of the ray structures (xyz).
+    // The eye in the frame of the ray structures (xyz).
     eye_in_rays: vec4f,
+    // The inverse of clip_from_rel.
+    rel_from_clip: mat4x4f,
+    // x, y, width, height of the part of the image that is drawn.
+    region: vec4u,
 }
 
 struct Instance {
