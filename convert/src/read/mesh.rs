@@ -165,11 +165,12 @@ impl<'a> Meshes<'a> {
                 (0..count as u32).collect()
             }
         };
+        let few = indices.len() < count;
         let mut indices = list(mode, indices);
         if indices.is_empty() {
             return Ok(None);
         }
-        let vertices = if indices.len() < count {
+        let vertices = if few {
             budget.take(4 * indices.len() as u64)?;
             compact(&mut indices)
         } else {
