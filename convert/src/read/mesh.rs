@@ -311,7 +311,7 @@ impl<'a> Gather<'a, '_> {
         let Some(index) = index else {
             return Ok(Vec::new());
         };
-        let accessor = self.open(index, &[3, 4], 16)?.as_normalized();
+        let accessor = self.open(index, &[3, 4], 16)?.into_normalized();
         let mut last = ([f32::NAN; 4], [0.0; 4]);
         let colors = self.collect(|v| {
             let color = accessor.floats::<4>(v);
