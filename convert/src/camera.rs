@@ -87,7 +87,7 @@ pub(crate) fn write(json: &mut Json, camera: &Camera, bounds: Option<&Bounds>, w
             }
         }
         if with_extras {
-            extras::camera(json, camera);
+            extras::camera(json, camera, pose.forward.length());
         }
     });
 }

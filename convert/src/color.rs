@@ -16,8 +16,11 @@ pub(crate) fn srgb_from_linear(value_linear: f64) -> f64 {
     let v = unit(value_linear);
     if v <= 0.003_130_8 {
         v * 12.92
-    } else {
+    } else if v < 1.0 {
         1.055 * v.powf(1.0 / 2.4) - 0.055
+    } else {
+        // 1.055 - 0.055 is not 1 in f64.
+        1.0
     }
 }
 

@@ -4,14 +4,17 @@
 use std::f64::consts::FRAC_PI_4;
 
 use scenegraph::scene::{
-    Camera, Environment, Faces, Fog, FogType, Light, LightKind, LightModel, Material, Scene,
-    Texture, TextureModel, TextureSource, ViewportMapping,
+    Camera, Environment, Faces, Fog, FogType, Light, LightId, LightKind, LightModel, Material,
+    Scene, Texture, TextureModel, TextureSource, ViewportMapping,
 };
 
 use crate::json::Json;
 
 /// Half a unit in the last of the six digits that Inventor's documents give for defaults.
 const DEFAULT_TOLERANCE: f64 = 5e-7;
+
+/// Version of the names and meanings in `extras.iv`.
+const VERSION: u64 = 1;
 
 fn iv(json: &mut Json, body: impl FnOnce(&mut Json)) {
     json.object_unless_empty("extras", |json| json.object_unless_empty("iv", body));
@@ -20,6 +23,13 @@ fn iv(json: &mut Json, body: impl FnOnce(&mut Json)) {
 fn number(json: &mut Json, key: &str, value: f64, default: f64) {
     if (value - default).abs() > DEFAULT_TOLERANCE {
         json.key(key).field(value);
+    }
+}
+
+/// An index into a list in the scene's extras.
+fn index(json: &mut Json, key: &str, index: u32) {
+    if index != 0 {
+        json.key(key).u64(index.into());
     }
 }
 
@@ -80,6 +90,11 @@ pub(crate) fn texture(json: &mut Json, texture: &Texture) {
     });
 }
 
+/// Says that values which are left out equal Inventor's defaults.
+pub(crate) fn asset(json: &mut Json) {
+    iv(json, |json| json.key("version").u64(VERSION));
+}
+
 pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
     iv(json, |json| {
         number(json, "intensity", light.intensity, 1.0);
@@ -101,11 +116,14 @@ pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
             number(json, "dropOffRate", drop_off_rate, 0.0);
             number(json, "cutOffAngle", cut_off_angle_rad, FRAC_PI_4);
         }
+        index(json, "environment", light.environment.0);
     });
 }
 
-pub(crate) fn camera(json: &mut Json, camera: &Camera) {
+/// `unit_length` is that of the camera's unit in the frame of its glTF node: distances are in it.
+pub(crate) fn camera(json: &mut Json, camera: &Camera, unit_length: f64) {
     iv(json, |json| {
+        number(json, "unitLength", unit_length, 1.0);
         number(json, "aspectRatio", camera.aspect_ratio, 1.0);
         number(json, "nearDistance", camera.near_distance, 1.0);
         number(json, "farDistance", camera.far_distance, 10.0);
@@ -130,16 +148,26 @@ pub(crate) fn notable_class(class: &str) -> Option<&str> {
     (!is_plain_group(class)).then_some(class)
 }
 
+/// What surrounds a shape, by index in the lists of the scene's extras.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Scope {
+    pub(crate) light_set: u32,
+    pub(crate) environment: u32,
+}
+
 pub(crate) fn node<'a>(
     json: &mut Json,
     class: Option<&str>,
     notes: impl IntoIterator<Item = &'a str>,
+    scope: Scope,
 ) {
     iv(json, |json| {
         if let Some(class) = class {
             json.key("type").str(class);
         }
         json.array_unless_empty("notes", notes, |json, note| json.str(note));
+        index(json, "lightSet", scope.light_set);
+        index(json, "environment", scope.environment);
     });
 }
 
@@ -150,8 +178,10 @@ pub(crate) fn scene(json: &mut Json, scene: &Scene) {
             pos: default.pos,
             ..e.clone()
         };
-        let notable = scene.environments.iter().filter(|e| plain(e) != default);
-        json.array_unless_empty("environments", notable, |json, environment| {
+        // All or none, so that each keeps its place in the list.
+        let notable = scene.environments.iter().any(|e| plain(e) != default);
+        let environments = scene.environments.iter().filter(|_| notable);
+        json.array_unless_empty("environments", environments, |json, environment| {
             json.object(|json| {
                 number(json, "ambientIntensity", environment.ambient_intensity, 0.2);
                 numbers(
@@ -170,6 +200,15 @@ pub(crate) fn scene(json: &mut Json, scene: &Scene) {
                     write_fog(json, fog);
                 }
             });
+        });
+        let all = (0..scene.lights.len() as u32).map(LightId);
+        let scoped = match scene.light_sets.as_slice() {
+            [only] => !only.iter().copied().eq(all),
+            _ => true,
+        };
+        let light_sets = scene.light_sets.iter().filter(|_| scoped);
+        json.array_unless_empty("lightSets", light_sets, |json, set| {
+            json.array(|json| set.iter().for_each(|light| json.u64(light.0.into())));
         });
     });
 }

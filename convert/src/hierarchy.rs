@@ -14,6 +14,7 @@ use geometry::transform::{Decomposition, Trs, decompose};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use scenegraph::scene::{NodeId, Placement, Scene};
 
+use crate::extras::Scope;
 use crate::frame::{is_rotation, uniform_scale};
 use crate::json::Json;
 use crate::{camera, extras, light};
@@ -32,6 +33,7 @@ struct Draft<'s> {
     name: Option<&'s str>,
     class: Option<&'s str>,
     notes: Vec<&'s str>,
+    scope: Scope,
     parent_from_local: DAffine3,
     content: Content,
     children: Vec<usize>,
@@ -59,6 +61,10 @@ impl<'s> Hierarchy<'s> {
             let placement = &instance.placement;
             let local = placement.parent_from_local * DAffine3::from_translation(origin);
             builder.add_item(placement.node, &placement.name, local, Content::Mesh(mesh));
+            builder.set_scope(Scope {
+                light_set: instance.light_set.0,
+                environment: instance.environment.0,
+            });
         }
         let frames = builder.group_frames();
         for (i, light) in scene.lights.iter().enumerate() {
@@ -143,7 +149,7 @@ impl<'s> Hierarchy<'s> {
             }
             json.array_unless_empty("children", first_child..queue.len(), Json::usize);
             if with_extras && inner_rotation.is_none() {
-                extras::node(json, node.class, node.notes.iter().copied());
+                extras::node(json, node.class, node.notes.iter().copied(), node.scope);
             }
         });
     }
@@ -194,10 +200,18 @@ impl<'s> Builder<'s> {
             name: name.as_deref(),
             class: None,
             notes: Vec::new(),
+            scope: Scope::default(),
             parent_from_local,
             content,
             children: Vec::new(),
         });
+    }
+
+    /// The scope of the item added last.
+    fn set_scope(&mut self, scope: Scope) {
+        if let Some(draft) = self.drafts.last_mut() {
+            draft.scope = scope;
+        }
     }
 
     /// A light or camera: under its group if `keeps` says so, else at the root.
@@ -254,6 +268,7 @@ impl<'s> Builder<'s> {
             name: node.name.as_deref(),
             class: extras::notable_class(&node.class),
             notes: node.notes.iter().map(|note| &**note).collect(),
+            scope: Scope::default(),
             parent_from_local: node.parent_from_local,
             content: Content::Nothing,
             children,

@@ -13,7 +13,7 @@ use crate::material::{GltfMaterial, Surroundings, VertexColors};
 use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_texture};
 use crate::remarks::Remarks;
 use crate::texture::{TextureLoader, Textures};
-use crate::{Container, Error, Options, Report, binary, camera, light, sound};
+use crate::{Container, Error, Options, Report, binary, camera, extras, light, sound};
 
 /// A conversion with everything decided and measured: which materials, meshes, nodes and images
 /// there are, and where each number goes.
@@ -107,7 +107,7 @@ impl<'s> Plan<'s> {
 
     /// The glTF text, and the number of its nodes; `uri_of` names the files of the buffers.
     pub(crate) fn json(&self, uri_of: impl Fn(usize) -> Option<String>) -> (Vec<u8>, usize) {
-        let extras = self.options.extras;
+        let with_extras = self.options.extras;
         // About what a node and an accessor take, so that the text need not move often.
         let guess = 1024 + 160 * self.scene.instances.len() + 170 * self.layout.accessors.len();
         let mut json = Json::with_capacity(guess);
@@ -117,16 +117,19 @@ impl<'s> Plan<'s> {
                 json.key("version").str("2.0");
                 json.key("generator")
                     .str(concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")));
+                if with_extras {
+                    extras::asset(json);
+                }
             });
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
             self.write_lights(json);
-            nodes = self.hierarchy.write(json, self.scene, extras);
+            nodes = self.hierarchy.write(json, self.scene, with_extras);
             json.array_unless_empty("cameras", &self.scene.cameras, |json, camera| {
-                camera::write(json, camera, self.bounds.as_ref(), extras);
+                camera::write(json, camera, self.bounds.as_ref(), with_extras);
             });
             json.array_unless_empty("materials", &self.materials, |json, material| {
                 let source = &self.scene.materials[material.source.index()];
-                material.write(json, source, extras);
+                material.write(json, source, with_extras);
             });
             json.array_unless_empty("meshes", &self.meshes, |json, mesh| {
                 let source = mesh.source.index();
@@ -135,7 +138,7 @@ impl<'s> Plan<'s> {
             });
             let first_image_view = self.layout.first_image_view;
             self.textures
-                .write(json, extras, |image| (first_image_view + image) as u32);
+                .write(json, with_extras, |image| (first_image_view + image) as u32);
             self.layout.write(json, self.scene, &self.needs, uri_of);
         });
         (json.into_bytes(), nodes)

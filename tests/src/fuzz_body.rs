@@ -28,6 +28,8 @@ pub fn all(bytes: &[u8]) {
     parse(bytes);
     let resolved = resolve(bytes);
     convert(&resolved);
+    // Any answer is right.
+    let _ = read_gltf(bytes);
 }
 
 /// Parsing ends, and what was read without a problem reads back equal from its print.
@@ -143,6 +145,30 @@ pub fn convert(resolved: &Resolved) {
     if let Err(error) = gltf::Gltf::from_slice(&bytes) {
         panic!("written, but not readable: {error}");
     }
+    match read_gltf(&bytes) {
+        Ok(read) => assert_eq!(read.scene.instances.len(), scene.instances.len()),
+        Err(error) => panic!("written, but not read back: {error}"),
+    }
+}
+
+/// Reading glTF ends, and a scene that it gives keeps its guarantees.
+///
+/// # Errors
+///
+/// As [`convert::read_gltf`] does.
+///
+/// # Panics
+///
+/// When that does not hold.
+pub fn read_gltf(bytes: &[u8]) -> Result<convert::Model, convert::ReadError> {
+    let limits = convert::ReadLimits {
+        items: 100_000,
+        ..convert::ReadLimits::default()
+    };
+    let loader = FileLoader::default();
+    let model = convert::read_gltf(bytes, "input.glb", Path::new("."), &loader, &limits)?;
+    assert_eq!(model.scene.check(), []);
+    Ok(model)
 }
 
 /// Finds no image file.

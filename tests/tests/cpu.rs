@@ -6,6 +6,7 @@ mod cpu {
     mod corpus;
     mod determinism;
     mod glb;
+    mod gltf_in;
     mod includes;
     mod large;
     mod models;

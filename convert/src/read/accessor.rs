@@ -123,7 +123,7 @@ impl<'a> Accessor<'a> {
     }
 
     /// Takes integers for shares of their range, whatever the file says.
-    pub(crate) fn as_normalized(mut self) -> Self {
+    pub(crate) fn into_normalized(mut self) -> Self {
         self.normalized = true;
         self
     }

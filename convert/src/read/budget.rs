@@ -5,7 +5,7 @@ use super::error::ReadError;
 /// Limits of a reader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadLimits {
-    /// Nesting of nodes.
+    /// Nesting of nodes: those of an Inventor file, twice where they shear, and some.
     pub depth: usize,
     /// Nodes, instances, lights and cameras in the scene together.
     pub items: usize,
@@ -16,7 +16,7 @@ pub struct ReadLimits {
 impl Default for ReadLimits {
     fn default() -> Self {
         Self {
-            depth: 1000,
+            depth: 4000,
             items: 2_000_000,
             bytes: 16 << 30,
         }

@@ -64,7 +64,7 @@ pub(crate) fn copies(
     };
     let translations = open("TRANSLATION", 3)?;
     // Integers are shares here, as with the rotations of animations.
-    let rotations = open("ROTATION", 4)?.map(Accessor::as_normalized);
+    let rotations = open("ROTATION", 4)?.map(Accessor::into_normalized);
     let scales = open("SCALE", 3)?;
     let all = [&translations, &rotations, &scales];
     let count = all.iter().filter_map(|a| a.as_ref()).map(Accessor::count);

@@ -192,11 +192,16 @@ impl<'a> Walk<'a> {
             let missing = ReadError::broken("mesh", index.value(), "it does not exist");
             let mesh = document.root.get(index).ok_or(missing)?;
             frames = copies(source, document, self.buffers, &mut self.budget)?;
-            for primitive in &mesh.primitives {
+            let shown: &[_] = if frames.is_empty() {
+                &[]
+            } else {
+                &mesh.primitives
+            };
+            for primitive in shown {
                 self.budget.take_items(frames.len())?;
                 let wants = self.materials.wants(primitive.material)?;
                 let made = self.meshes.primitive(primitive, &wants, &mut self.budget)?;
-                if let Some(mesh) = made.filter(|_| !frames.is_empty()) {
+                if let Some(mesh) = made {
                     let material = self.materials.material(
                         primitive.material,
                         self.buffers,

@@ -73,6 +73,7 @@ impl Iv {
                 color_srgb: self.triple("fogColor", [1.0; 3]),
                 visibility: self.number("fogVisibility", 0.0),
             }),
+            pos: default.pos,
         }
     }
 }

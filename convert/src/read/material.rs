@@ -185,6 +185,7 @@ fn from_inventor(iv: &Iv) -> Material {
         line_width_px: iv.number("lineWidth", 0.0),
         point_size_px: iv.number("pointSize", 0.0),
         line_pattern: pattern.unwrap_or(0xffff),
+        style_pos: SourcePos::default(),
         pos: SourcePos::default(),
     }
 }
@@ -231,6 +232,7 @@ fn from_gltf(source: &JsonMaterial, unlit: bool) -> Material {
         line_width_px: 0.0,
         point_size_px: 0.0,
         line_pattern: 0xffff,
+        style_pos: SourcePos::default(),
         pos: SourcePos::default(),
     }
 }

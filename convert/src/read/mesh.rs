@@ -165,11 +165,12 @@ impl<'a> Meshes<'a> {
                 (0..count as u32).collect()
             }
         };
+        let few = indices.len() < count;
         let mut indices = list(mode, indices);
         if indices.is_empty() {
             return Ok(None);
         }
-        let vertices = if indices.len() < count {
+        let vertices = if few {
             budget.take(4 * indices.len() as u64)?;
             compact(&mut indices)
         } else {
@@ -310,7 +311,7 @@ impl<'a> Gather<'a, '_> {
         let Some(index) = index else {
             return Ok(Vec::new());
         };
-        let accessor = self.open(index, &[3, 4], 16)?.as_normalized();
+        let accessor = self.open(index, &[3, 4], 16)?.into_normalized();
         let mut last = ([f32::NAN; 4], [0.0; 4]);
         let colors = self.collect(|v| {
             let color = accessor.floats::<4>(v);

@@ -40,6 +40,7 @@ fn an_empty_scene_is_a_valid_model() {
         "asset": {
             "version": "2.0",
             "generator": concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")),
+            "extras": {"iv": {"version": 1}},
         },
     });
     assert_eq!(converted.json, want);

@@ -223,6 +223,7 @@ fn light_extras_hold_inventors_own_values() {
             "attenuation": [0, 1, 2],
             "dropOffRate": 0.25,
             "cutOffAngle": 0.5,
+            "environment": 1,
         })
     );
     let color = crate::read::numbers(&light(&converted, 0)["color"]);

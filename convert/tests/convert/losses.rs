@@ -6,7 +6,7 @@ use scenegraph::scene::{
     Environment, EnvironmentId, Faces, Fog, FogType, LightId, LightKind, LightModel, LightSetId,
     Material, Projection, ViewportMapping,
 };
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::read::convert;
 use crate::scenes::{Build, at_line, lines, material, points, scale, triangle};
@@ -257,7 +257,7 @@ fn environments_are_in_the_scenes_extras() {
         ..fog()
     });
     build.scene.instances[1].environment = EnvironmentId(1);
-    let want = json!({"iv": {"environments": [{
+    let want = json!({"iv": {"environments": [{}, {
         "ambientIntensity": 0.5,
         "ambientColor": [0, 0, 1],
         "attenuation": [0, 1, 0],
@@ -265,5 +265,34 @@ fn environments_are_in_the_scenes_extras() {
         "fogColor": [1, 0, 0],
         "fogVisibility": 50,
     }]}});
-    assert_eq!(convert(&build.scene).at("/scenes/0/extras"), &want);
+    let converted = convert(&build.scene);
+    assert_eq!(converted.at("/scenes/0/extras"), &want);
+    let scopes = converted.nodes().iter().map(|node| node.get("extras"));
+    let in_second = json!({"iv": {"environment": 1}});
+    assert!(scopes.eq([None, Some(&in_second)]));
+}
+
+#[test]
+fn light_sets_are_in_extras_unless_all_lights_reach_all() {
+    let mut build = two_shapes();
+    build.light(
+        None,
+        DAffine3::IDENTITY,
+        LightKind::Directional {
+            direction: DVec3::X,
+        },
+    );
+    assert_eq!(convert(&build.scene).at("/scenes/0/extras"), &Value::Null);
+    build.scene.light_sets.push(Vec::new());
+    build.scene.instances[0].light_set = LightSetId(1);
+    let converted = convert(&build.scene);
+    assert_eq!(
+        converted.at("/scenes/0/extras/iv/lightSets"),
+        &json!([[0], []])
+    );
+    assert_eq!(
+        converted.at("/nodes/0/extras"),
+        &json!({"iv": {"lightSet": 1}})
+    );
+    assert_eq!(converted.at("/nodes/1/extras"), &Value::Null);
 }

@@ -7,11 +7,13 @@
 
 mod containers;
 mod hierarchy;
+mod hostile;
 mod lights_cameras;
 mod losses;
 mod materials;
 mod meshes;
 mod read;
+mod reading;
 mod scenes;
 mod size;
 mod textures;

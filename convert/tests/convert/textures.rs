@@ -49,6 +49,17 @@ fn files_pass_through_byte_for_byte() {
         assert_eq!(converted.at("/images/0/name"), "a.rgb");
         assert_eq!(converted.at("/textures/0/extras/iv/filename"), "dir\\a.rgb");
         assert_eq!(*images.asked.lock().unwrap(), ["folder/dir\\a.rgb"]);
+
+        let in_memory = Texture {
+            source: TextureSource::Encoded {
+                bytes: bytes.into(),
+                name: Some("dir\\a.rgb".into()),
+            },
+            ..file_texture("")
+        };
+        let build = Build::textured(in_memory, material());
+        let again = with(&build, &Images::default());
+        assert!(again.bytes == converted.bytes);
     }
 }
 
