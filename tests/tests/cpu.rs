@@ -8,6 +8,7 @@ mod cpu {
     mod glb;
     mod includes;
     mod large;
+    mod measures;
     mod models;
     mod precision;
     mod robustness;
