@@ -9,6 +9,7 @@ mod cpu {
     mod gltf_in;
     mod includes;
     mod large;
+    mod measures;
     mod models;
     mod precision;
     mod reference;

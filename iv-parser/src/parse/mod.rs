@@ -228,11 +228,12 @@ impl<'a> Parser<'a> {
     fn opt_definition(&mut self, start: usize, end: usize) -> Option<Child<'a>> {
         let name_start = lex::skip_trivia(self.bytes, end);
         let full = lex::to_blank(self.bytes, name_start);
-        // As in Coin a name goes on to the next blank.
+        // As in Coin a name goes on to the next blank; one that holds a whole body is none.
         let name = &self.bytes[name_start..full];
         let class_start = lex::skip_trivia(self.bytes, full);
         if let Some(class_end) = lex::name(self.bytes, class_start)
             && !name.is_empty()
+            && !(name.contains(&b'{') && name.ends_with(b"}"))
             && self.is_body_next(class_end)
         {
             if name.len() <= LONGEST_ODD_NAME && self.first_bracket(name_start, full) < full {
@@ -243,6 +244,9 @@ impl<'a> Parser<'a> {
             let class = &self.bytes[class_start..class_end];
             return Some(self.open_node(class, Some(name), class_start));
         }
+        if let Some(child) = self.opt_body_of_no_class(name_start) {
+            return Some(child);
+        }
         self.at = full.max(end);
         self.warn(
             "bad-def",
@@ -251,6 +255,23 @@ impl<'a> Parser<'a> {
             Span::new(start, self.at),
         );
         Some(Child::Null)
+    }
+
+    /// The body of `DEF name{ … }` or `DEF name { … }`, whose class is missing.
+    fn opt_body_of_no_class(&mut self, name_start: usize) -> Option<Child<'a>> {
+        let name_end = self.first_bracket(name_start, self.bytes.len());
+        if name_end == name_start || !self.is_body_next(name_end) {
+            return None;
+        }
+        let name = &self.bytes[name_start..name_end];
+        self.at = lex::skip_trivia(self.bytes, name_end) + 1;
+        self.warn(
+            "no-class",
+            "a body without a class name",
+            "its contents were kept; write `DEF name ClassName { … }`",
+            Span::new(name_start, name_end),
+        );
+        Some(self.open_node(b"", Some(name), name_start))
     }
 
     fn first_bracket(&self, start: usize, end: usize) -> usize {

@@ -66,9 +66,9 @@ pub(super) fn upgrade(node: &mut Node, old: &[OldValue], version: (u8, u8)) {
         Class::CustomNode => node.kind = Kind::Known(Class::Group),
         Class::MaterialIndex => node.kind = Kind::Known(Class::ColorIndex),
         Class::IndexedTriangleMesh => triangle_mesh(node),
-        // The levels stand in the LevelOfDetail that readers of 2.0 were given; its children are
-        // no children of this node yet, so it is taken whole, as the finest level.
-        Class::LOD if node.children.is_empty() => {
+        // What a group holds may stand in the replacement that readers of 2.0 were given. For an
+        // LOD that is a LevelOfDetail, which is taken whole, as the finest level.
+        Class::LOD | Class::WWWAnchor if node.children.is_empty() => {
             if let Some(FieldValue::Nodes(nodes)) = find("alternateRep").map(|f| &f.value) {
                 node.children.extend(nodes);
             }

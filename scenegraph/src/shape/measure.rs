@@ -1,13 +1,15 @@
-//! The size of a shape without making it: counts and bounds from the index lists alone.
+//! The size of a shape without making it: counts and bounds from the index lists alone. Only what a
+//! `DrawStyle` shows as edges or corners is made, because each is drawn once.
 
 use geometry::bounds::Aabb;
 
 use crate::registry::Class;
+use crate::remarks::Remarks;
 use crate::resolve::Style;
 use crate::scene::Topology;
 
 use super::attributes::Attributes;
-use super::{Job, point, primitives};
+use super::{Job, faces, outline, point, primitives};
 
 /// How much a shape draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,14 +24,24 @@ pub struct Measure {
 
 /// The size of a shape; `None` if it draws nothing.
 pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
-    let topology = match (job.class, job.style) {
-        (Class::LineSet | Class::IndexedLineSet, _) => Topology::Lines,
-        (
-            Class::PointSet | Class::IndexedPointSet | Class::MarkerSet | Class::IndexedMarkerSet,
-            _,
-        ) => Topology::Points,
-        (_, Style::Lines) => Topology::Lines,
-        (_, Style::Points) => Topology::Points,
+    if matches!(job.style, Style::Lines | Style::Points) {
+        match job.class {
+            Class::Cube | Class::Sphere | Class::Cone | Class::Cylinder => {
+                return styled_primitive(job, attributes);
+            }
+            Class::FaceSet
+            | Class::IndexedFaceSet
+            | Class::TriangleStripSet
+            | Class::IndexedTriangleStripSet
+            | Class::QuadMesh => return styled_faces(job, attributes),
+            _ => {}
+        }
+    }
+    let topology = match job.class {
+        Class::LineSet | Class::IndexedLineSet => Topology::Lines,
+        Class::PointSet | Class::IndexedPointSet | Class::MarkerSet | Class::IndexedMarkerSet => {
+            Topology::Points
+        }
         _ => Topology::Triangles,
     };
     if let Some(bounds) = primitives::bounds(job.class, attributes) {
@@ -106,6 +118,38 @@ pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
     (primitives > 0).then_some(Measure {
         topology,
         primitives,
+        bounds,
+    })
+}
+
+/// Faces drawn as edges or corners. Each is drawn once, so they are looked for as for the mesh.
+fn styled_faces(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
+    // What is wrong with a shape is said when it is made.
+    let faces = faces::faces(job, attributes, &mut Remarks::default())?;
+    let (corners, topology) = outline::styled(faces, job.style);
+    let mut bounds = Aabb::EMPTY;
+    let at = |&i: &u32| {
+        let size = attributes.coordinate_size;
+        point(attributes.coordinates, size, i as usize)
+    };
+    let points = corners.coordinates.iter().filter_map(at);
+    points.for_each(|p| bounds.include(p));
+    let primitives = corners.coordinates.len() / corners.step;
+    (primitives > 0).then_some(Measure {
+        topology,
+        primitives,
+        bounds,
+    })
+}
+
+/// A primitive drawn as edges or corners.
+fn styled_primitive(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
+    let bounds = primitives::bounds(job.class, attributes)?;
+    let mesh = primitives::mesh(job, attributes)?;
+    let mesh = outline::styled_primitive(mesh, job.style)?;
+    Some(Measure {
+        topology: mesh.topology,
+        primitives: mesh.primitive_count(),
         bounds,
     })
 }

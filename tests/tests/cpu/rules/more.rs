@@ -181,4 +181,30 @@ pub const RULES: &[Rule] = &[
         texcoords: &[&[[1.0, 0.0], [2.0, 0.0], [1.0, 3.0]]],
         ..RULE
     },
+    Rule {
+        name: "a group described for old readers holds its alternateRep",
+        text: "#Inventor V2.0 ascii
+            WWWAnchor { fields [ SFString name, SFNode alternateRep ] name \"a.html\"
+            alternateRep Separator { Coordinate3 { point [ 0 0 0, 2 0 0, 0 2 0 ] }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } } }",
+        draws: TRIANGLE,
+        ..RULE
+    },
+    Rule {
+        name: "but not beside its children",
+        text: "#Inventor V2.0 ascii
+            WWWAnchor { fields [ SFString name, SFNode alternateRep ] name \"a.html\"
+            alternateRep Cube { } Coordinate3 { point [ 0 0 0, 2 0 0, 0 2 0 ] }
+            IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] } }",
+        draws: TRIANGLE,
+        ..RULE
+    },
+    Rule {
+        name: "a DEF without class keeps its name and what is in it",
+        text: "Separator { DEF Tri{Coordinate3{point[0 0 0,2 0 0,0 2 0]} IndexedFaceSet{
+            coordIndex[0,1,2,-1]}} }",
+        draws: TRIANGLE,
+        codes: &["no-class"],
+        ..RULE
+    },
 ];
