@@ -70,7 +70,7 @@ fn cap_boundary(mesh: &CasterMesh, volume: &Volume) -> Vec<(u32, u32)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
     #[test]
     fn a_point_is_in_a_volume_iff_it_is_blocked(

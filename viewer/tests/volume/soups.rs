@@ -111,3 +111,23 @@ pub fn directions() -> impl Strategy<Value = Vec<Point>> {
 fn with_w([x, y, z]: [i64; 3], w: i128) -> Point {
     [x.into(), y.into(), z.into(), w]
 }
+
+/// Many triangles over few positions, with a light.
+pub fn crowd() -> impl Strategy<Value = Case> {
+    let indices = prop::collection::vec(0_u32..14, 60..180);
+    (
+        prop::collection::vec(position(), 14),
+        indices,
+        light(),
+        any::<bool>(),
+    )
+        .prop_map(|(positions, mut indices, light, mirrored)| {
+            indices.truncate(indices.len() / 3 * 3);
+            Case {
+                positions,
+                indices,
+                light,
+                mirrored,
+            }
+        })
+}

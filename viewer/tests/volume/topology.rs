@@ -99,12 +99,21 @@ fn components_touching_in_a_vertex_are_apart() {
 }
 
 #[test]
-fn parts_keep_order_and_positions() {
-    let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let mesh = CasterMesh::new(&positions, &[0, 1, 2, 1, 0, 3, 2, 3, 1]);
+fn parts_keep_their_order() {
+    let positions = [
+        [9.0; 3],
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    let mesh = CasterMesh::new(&positions, &[1, 2, 3, 2, 1, 4, 3, 4, 2]);
     let part = mesh.part(1..99);
-    assert_eq!(part.positions, mesh.positions);
+    assert_eq!(part.positions, mesh.positions[1..]);
     assert_eq!(part.triangles, [[1, 0, 3, 0], [2, 3, 1, 0]]);
+    let part = mesh.part(2..3);
+    assert_eq!(part.positions, mesh.positions[2..]);
+    assert_eq!(part.triangles, [[1, 2, 0, 0]]);
     assert_eq!(mesh.part(9..99).triangles.len(), 0);
     let reversed = std::ops::Range { start: 2, end: 1 };
     assert_eq!(mesh.part(reversed).triangles.len(), 0);
