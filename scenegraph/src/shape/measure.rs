@@ -125,7 +125,12 @@ pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
 /// Faces drawn as edges or corners. Each is drawn once, so they are looked for as for the mesh.
 fn styled_faces(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
     // What is wrong with a shape is said when it is made.
-    let faces = faces::faces(job, attributes, &mut Remarks::default())?;
+    let faces = faces::faces(
+        job,
+        attributes,
+        faces::Spare::default(),
+        &mut Remarks::default(),
+    )?;
     let (corners, topology) = outline::styled(faces, job.style);
     let mut bounds = Aabb::EMPTY;
     let at = |&i: &u32| {

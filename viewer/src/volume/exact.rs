@@ -4,11 +4,9 @@
 //! The results are exact as long as no product of two inputs overflows or is subnormal. A
 //! result that is not a number has the sign 0.
 
+pub(crate) use geometry::num::UNIT_ROUNDOFF;
 use glam::DVec3;
 use robust::Coord3D;
-
-/// 2^-53, the relative error of one rounding.
-const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// Shewchuk's bound for a 3x3 determinant whose rows are rounded differences, relative to its
 /// permanent: *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
@@ -82,7 +80,7 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 /// A determinant and a bound of its rounding error, the rows being exact, or rounded
 /// differences of exact numbers.
 #[inline]
-fn bounded_determinant(u: DVec3, v: DVec3, w: DVec3) -> (f64, f64) {
+pub(crate) fn bounded_determinant(u: DVec3, v: DVec3, w: DVec3) -> (f64, f64) {
     let (yz, zy) = (v.y * w.z, v.z * w.y);
     let (zx, xz) = (v.z * w.x, v.x * w.z);
     let (xy, yx) = (v.x * w.y, v.y * w.x);

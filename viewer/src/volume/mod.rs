@@ -44,32 +44,31 @@
 //! | [`component`] | connected components: are they closed, which winding numbers occur |
 //! | [`facing`] | the sign of each triangle |
 //! | [`extract`] | sides and caps, by one of three methods |
+//! | [`layers`] | a bound of the count |
+//! | [`split`] | a mesh in parts whose counts are bounded |
+//! | [`zpass`] | when, and from which value, to count from the near plane |
+//! | [`cull`] | which volumes cannot be seen |
 
 pub mod component;
+pub mod cull;
 mod exact;
 pub mod extract;
 pub mod facing;
+pub mod layers;
 mod light;
 mod per_triangle;
 mod reference_edge;
 mod silhouette;
+pub mod split;
 pub mod topology;
 mod winding;
+pub mod zpass;
 
 pub use component::Component;
+pub use cull::volume_may_touch;
 pub use extract::{Method, Volume, extract};
 pub use facing::{CastRule, component_signs, facing};
+pub use layers::{LayerCaster, layer_bound};
+pub use split::{bisect, split};
 pub use topology::CasterMesh;
-/// Temporary.
-pub fn zpass_is_safe(
-    _: &geometry::bounds::Aabb,
-    _: glam::DVec3,
-    _: &[glam::DVec3; 4],
-    _: glam::DVec4,
-) -> bool {
-    false
-}
-/// Temporary.
-pub fn volume_may_touch(_: &geometry::bounds::Aabb, _: glam::DVec4, _: &[glam::DVec4]) -> bool {
-    true
-}
+pub use zpass::{count_at_infinity, zpass_is_safe};

@@ -52,13 +52,22 @@ impl CasterMesh {
         Self::from_welded(welded, triangles)
     }
 
-    /// The mesh of some of the triangles, in the same order, with the same positions. A range
-    /// beyond the end is cut.
+    /// The mesh of some of the triangles, in the same order, with the positions that they use,
+    /// also in the same order. A range beyond the end is cut.
     #[must_use]
     pub fn part(&self, triangles: std::ops::Range<usize>) -> Self {
         let end = triangles.end.min(self.triangles.len());
-        let part = self.triangles.get(triangles.start..end).unwrap_or_default();
-        Self::from_welded(self.positions.clone(), part.to_vec())
+        let rows = self.triangles.get(triangles.start..end).unwrap_or_default();
+        let mut used: Vec<u32> = rows.iter().flat_map(|&[a, b, c, _]| [a, b, c]).collect();
+        used.sort_unstable();
+        used.dedup();
+        let renamed = |v: u32| used.partition_point(|&u| u < v) as u32;
+        let rows = rows
+            .iter()
+            .map(|&[a, b, c, _]| [renamed(a), renamed(b), renamed(c), 0])
+            .collect();
+        let positions = used.iter().map(|&v| self.positions[v as usize]).collect();
+        Self::from_welded(positions, rows)
     }
 
     fn from_welded(positions: Vec<[f32; 4]>, triangles: Vec<[u32; 4]>) -> Self {
