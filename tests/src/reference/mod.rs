@@ -6,8 +6,8 @@
 //!
 //! Colours are display-referred and stay so. A surface point lies on the side of its triangle that
 //! the ray comes from: light from the other side does not reach it. Coplanar triangles do not shadow
-//! each other, and a light in the plane of a triangle is not shadowed by it; both "to within the
-//! rounding of coordinates", see [`Reference::rounding`].
+//! each other, and a light in the plane of a triangle is not shadowed by it; both to within the
+//! rounding of coordinates, see `Reference::rounding`.
 
 mod bvh;
 mod camera;
