@@ -5,7 +5,8 @@
 //! is that of the exact difference, or it is zero; and two triangles that share an edge compute it
 //! from the same sheared corners. Zero counts as inside, so a ray cannot slip between the two, and
 //! the paper's second computation with more digits is not needed: it would only tell apart which
-//! of the two is hit. Nor is its swap of axes, as both windings are hit. This holds as long as no product underflows.
+//! of the two is hit. Nor is its swap of axes, as both windings are hit. All this holds as long as no
+//! product underflows.
 
 use glam::DVec3;
 

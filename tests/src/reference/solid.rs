@@ -8,6 +8,12 @@ use super::bvh::{Bounds, Bvh};
 use super::light::Source;
 use super::ray::{Crossing, Ray};
 
+/// By how much a world coordinate and what is reckoned from it may err, relative to the largest
+/// coordinate there is: a coordinate is a sum of four rounded products, a point within a triangle
+/// one of three, a corner relative to a ray's origin one more difference. Each errs by a few units
+/// of 2^-53, all of them by less than 16.
+pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// A triangle with area.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
@@ -54,20 +60,21 @@ impl Triangle {
     }
 
     /// On which side of the triangle's plane the light is: 1 on the side of [`Self::normal`], -1 on
-    /// the other, 0 if that cannot be told when each coordinate is uncertain by `unit`.
+    /// the other, 0 if that cannot be told when each coordinate is uncertain by `unit`, and the
+    /// light's by [`ROUNDING`] of its own if that is more.
     ///
     /// The sign is that of the product of the two edges `e`, `f` and the vector `l` to the light.
-    /// Moving each end by `unit` changes it by at most `unit (|e| + |f|) |l|` and, for a light at a
-    /// point, which moves too, `unit |e x f|`, times 2 as a vector has two ends.
+    /// Moving a corner by `unit` changes it by at most `unit (|e| + |f|) |l|`, moving a light by
+    /// `unit |e x f|`, times 2 as a vector has two ends.
     pub fn side_of(&self, source: Source, unit: f64) -> i8 {
         let [a, b, c] = self.corners;
         let normal = self.normal();
         let (l, own) = match source {
             Source::Direction(l) => (l, 0.0),
-            Source::Point(p) => (p - a, normal.length()),
+            Source::Point(p) => (p - a, unit.max(ROUNDING * p.abs().max_element())),
         };
         let reach = (b - a).length() + (c - a).length();
-        let doubt = 2.0 * unit * (reach * l.length() + own);
+        let doubt = 2.0 * (unit * reach * l.length() + own * normal.length());
         let volume = normal.dot(l);
         i8::from(volume > doubt) - i8::from(volume < -doubt)
     }

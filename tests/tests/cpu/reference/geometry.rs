@@ -107,6 +107,27 @@ fn crossings_in_closed_form() {
 }
 
 #[test]
+fn triangles_without_area_are_not_hit() {
+    let text = "#Inventor V2.1 ascii
+        Scale { scaleFactor 1 1 0 } Coordinate3 { point [ 0 0 0, 3 1 5, 6 2 -4 ] }
+        IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] }";
+    let scene = scene_of(text);
+    let flat = triangles(&scene);
+    assert_eq!(flat.len(), 1);
+    let options = RefOptions::of(&scene);
+    let reference = Reference::new(&scene, &options);
+    let mut by_rounding = 0;
+    for i in 0..1000 {
+        let origin = DVec3::new(0.1, 0.7, 0.3) * f64::from(i);
+        let direction = flat[0][2] * (f64::from(i) / 1000.0) - origin;
+        let ray = Ray::new(origin, direction);
+        by_rounding += usize::from(ray.cross(&flat[0]).is_some());
+        assert_eq!(reference.first_hit(origin, direction), None);
+    }
+    assert!(by_rounding > 0);
+}
+
+#[test]
 fn the_nearest_of_all_is_found() {
     // Boxes of every size, one in another.
     let boxes: String = (0..60)

@@ -22,11 +22,11 @@ fn check(rows: &[(&str, String, [f64; 3], [f64; 3])]) {
 fn fog() {
     let fog = |kind: &str, visibility: f64| {
         format!(
-            "Environment {{ fogType {kind} fogColor 0 1 0 fogVisibility {visibility} }}
-            Material {{ diffuseColor 1 0.5 0 }} {UNLIT}{WALL}"
+            "Environment {{ fogType {kind} fogColor 0.5 0.75 0.5 fogVisibility {visibility} }}
+            Material {{ diffuseColor 0.75 0.25 0.25 }} {UNLIT}{WALL}"
         )
     };
-    let mixed = |left: f64| [left, 1.0 - 0.5 * left, 0.0];
+    let mixed = |left: f64| [0.5 + 0.25 * left, 0.75 - 0.5 * left, 0.5 - 0.25 * left];
     // The wall is 5 away; so are, in depth, all its corners seen from straight ahead.
     check(&[
         ("haze", fog("HAZE", 20.0), FRONT, mixed(0.75)),
@@ -139,8 +139,8 @@ fn colours_of_vertices() {
     check(&[("diagonal", format!("{UNLIT}{body}{WALL}"), FRONT, expected)]);
 }
 
-/// A texture of 2 x 2 pixels on the wall, in unlit orange, transparent by a quarter.
-fn textured(model: &str, pixels: &str, st: [f64; 2], wrap: &str) -> String {
+/// A texture of 2 x 2 pixels on the wall, in unlit orange of this transparency.
+fn textured(model: &str, pixels: &str, st: [f64; 2], wrap: &str, transparency: f64) -> String {
     // The point of the wall in the middle of the view has these texture coordinates.
     let [s, t] = st;
     let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
@@ -148,7 +148,7 @@ fn textured(model: &str, pixels: &str, st: [f64; 2], wrap: &str) -> String {
         .map(|(u, v)| format!("{} {}, ", s + u, t + v))
         .collect();
     format!(
-        "{UNLIT} Material {{ diffuseColor 1 0.5 0 transparency 0.25 }}
+        "{UNLIT} Material {{ diffuseColor 1 0.5 0 transparency {transparency} }}
         Texture2 {{ model {model} blendColor 0 0 1 wrapS {wrap} wrapT {wrap} image {pixels} }}
         TextureCoordinate2 {{ point [ {points} ] }} {WALL}"
     )
@@ -168,20 +168,28 @@ fn texture_models() {
     let rgb = "2 2 3 0x336699 0 0 0";
     let rgba = "2 2 4 0x33669999 0 0 0";
     let rows = [
-        ("MODULATE", grey, [0.2, 0.1, 0.0], 0.75),
-        ("MODULATE", grey_alpha, [0.2, 0.1, 0.0], 0.45),
-        ("MODULATE", rgb, [0.2, 0.2, 0.0], 0.75),
-        ("MODULATE", rgba, [0.2, 0.2, 0.0], 0.45),
-        ("DECAL", rgb, [0.2, 0.4, 0.6], 0.75),
-        ("DECAL", rgba, [0.52, 0.44, 0.36], 0.75),
-        ("BLEND", grey, [0.8, 0.4, 0.2], 0.75),
-        ("BLEND", rgba, [0.8, 0.3, 0.6], 0.45),
-        ("REPLACE", rgb, [0.2, 0.4, 0.6], 0.75),
-        ("REPLACE", rgba, [0.2, 0.4, 0.6], 0.6),
+        ("MODULATE", grey, [0.2, 0.1, 0.0], 0.25, 0.75),
+        ("MODULATE", grey_alpha, [0.2, 0.1, 0.0], 0.25, 0.45),
+        ("MODULATE", rgb, [0.2, 0.2, 0.0], 0.25, 0.75),
+        ("MODULATE", rgba, [0.2, 0.2, 0.0], 0.25, 0.45),
+        ("DECAL", rgb, [0.2, 0.4, 0.6], 0.25, 0.75),
+        ("DECAL", rgba, [0.52, 0.44, 0.36], 0.25, 0.75),
+        ("BLEND", grey, [0.8, 0.4, 0.2], 0.25, 0.75),
+        ("BLEND", rgba, [0.8, 0.3, 0.6], 0.25, 0.45),
+        ("REPLACE", rgb, [0.2, 0.4, 0.6], 0.25, 0.75),
+        ("REPLACE", rgba, [0.2, 0.4, 0.6], 0.25, 0.6),
+        // Only the texture makes these transparent; a decal does not.
+        ("MODULATE", rgba, [0.2, 0.2, 0.0], 0.0, 0.6),
+        ("BLEND", rgba, [0.8, 0.3, 0.6], 0.0, 0.6),
+        ("REPLACE", rgba, [0.2, 0.4, 0.6], 0.0, 0.6),
+        ("DECAL", rgba, [0.52, 0.44, 0.36], 0.0, 1.0),
     ];
-    for (model, pixels, color, alpha) in rows {
+    for (model, pixels, color, transparency, alpha) in rows {
         // Texture coordinates are f32: 0.25 +- 0.5 is exact in it.
-        let got = colour_at(&textured(model, pixels, at, "REPEAT"), &parallel(1.0));
+        let got = colour_at(
+            &textured(model, pixels, at, "REPEAT", transparency),
+            &parallel(1.0),
+        );
         let expected = over(color, alpha);
         assert!(
             difference(got, expected) <= TOLERANCE,
@@ -211,7 +219,7 @@ fn between_pixels() {
         ([1.0, 7.0], "CLAMP", 1.0),
     ];
     for (st, wrap, value) in rows {
-        let got = colour_at(&textured("REPLACE", pixels, st, wrap), &parallel(1.0));
+        let got = colour_at(&textured("REPLACE", pixels, st, wrap, 0.25), &parallel(1.0));
         let expected = over([value; 3], 0.75);
         assert!(
             difference(got, expected) <= TOLERANCE,

@@ -3,7 +3,7 @@
 //! The wall is at the origin and its normal is +Z. Normals are f32, but 0 and 1 are exact in it, so
 //! that only f64 roundings remain: some tens of them, each below 2^-52 of values below 4.
 
-use super::{BACKGROUND, WALL, colour_at, difference, to_origin};
+use super::{BACKGROUND, WALL, colour_at, difference, parallel, picture, to_origin};
 
 const TOLERANCE: f64 = 1e-13;
 
@@ -14,6 +14,10 @@ const GREY: &str = "Environment { ambientIntensity 0 } Material { diffuseColor 0
 /// The same with a highlight; the exponent is 64.
 const SHINY: &str = "Environment { ambientIntensity 0 }
     Material { diffuseColor 0.5 0.5 0.5 specularColor 0.4 0.2 0 shininess 0.5 }\n";
+
+/// Emits light of its own.
+const GLOWING: &str = "Environment { ambientIntensity 0 }
+    Material { diffuseColor 0.2 0.2 0.2 specularColor 0.1 0.1 0.1 emissiveColor 0.5 0.25 0.125 }\n";
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 const BEHIND: [f64; 3] = [0.0, 0.0, -5.0];
@@ -212,6 +216,14 @@ fn highlights() {
 }
 
 #[test]
+fn a_parallel_view_sees_all_points_from_one_direction() {
+    let body = format!("{SHINY} DirectionalLight {{ }} {WALL}");
+    for color in picture(&body, &parallel(0.5), [3, 1]).color {
+        assert!(difference(color, [0.9, 0.7, 0.5]) <= TOLERANCE, "{color:?}");
+    }
+}
+
+#[test]
 fn the_rest_of_the_sum() {
     let all = "Environment { ambientIntensity 0.5 ambientColor 1 0.5 0.25 }
         Material { ambientColor 0.4 0.4 0.4 emissiveColor 0.1 0 0.2 diffuseColor 0.5 0.5 0.5 }";
@@ -267,6 +279,13 @@ fn both_sides() {
             &[GREY, to_back],
             BEHIND,
             grey(0.0),
+        ),
+        // Nothing is taken away: neither by the diffuse part nor by the highlight.
+        row(
+            "one-sided back that glows",
+            &[GLOWING, to_back],
+            BEHIND,
+            [0.5, 0.25, 0.125],
         ),
         row("solid's front", &[SOLID, GREY, to_front], FRONT, grey(0.5)),
         row(

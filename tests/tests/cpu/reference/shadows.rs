@@ -4,7 +4,7 @@ use glam::DVec3;
 use tests::reference::{RefCamera, RefLens, RefOptions, render};
 use tests::shadow_scenes::{far_by_coordinates, far_by_transform, scene_of};
 
-use super::{BACKGROUND, WALL, parallel, picture, to_origin};
+use super::{BACKGROUND, WALL, difference, parallel, picture, to_origin};
 
 const SIZE: [u32; 2] = [120, 120];
 const HEIGHT: f64 = 1.0;
@@ -34,6 +34,9 @@ fn check_square(light: &str, towards: impl Fn(DVec3) -> DVec3, area: f64) {
         dark += u32::from(shadowed);
         let expected = object == 1 || !shadowed;
         assert_eq!(lit == 1, expected, "{light}: {p}");
+        // Inventor's defaults for ambient light, 0.2 of 0.2, are all that is left in the shadow.
+        let is_dark = difference(image.color[i], [0.04; 3]) < 1e-12;
+        assert_eq!(is_dark, !expected, "{light}: {p}");
     }
     // The count of pixel centres in a square errs by less than its circumference in pixels.
     let pixel = 2.0 * view / height;
@@ -107,6 +110,18 @@ fn a_light_in_a_triangles_plane_is_not_shadowed_by_it() {
 }
 
 #[test]
+fn a_triangle_shadows_itself_up_to_its_edge() {
+    // A thing far away makes the rounding of coordinates 1e-8, so that a ray from just before the
+    // wall would get by the edge without meeting the wall.
+    let body = format!(
+        "DirectionalLight {{ direction 1 0 1e-6 }} Translation {{ translation 1.95 0 0 }} {WALL}
+        Translation {{ translation 1e7 0 0 }} {WALL}"
+    );
+    let image = picture(&body, &to_origin([0.0, 0.0, 5.0]), [1, 1]);
+    assert_eq!((image.object[0], image.lit[0]), (Some(0), 0));
+}
+
+#[test]
 fn all_opaque_things_cast() {
     let light = "DirectionalLight { direction 0.3 0.1 -1 }";
     let roof = |before: &str| {
@@ -169,10 +184,7 @@ fn nothing_changes_far_away() {
                         "{offset} {i}"
                     );
                     // Colours vary by less than 1 a unit of length; 2.6e6 is known to 2^-31.
-                    assert!(
-                        super::difference(a.color[i], b.color[i]) < 1e-6,
-                        "{offset} {i}"
-                    );
+                    assert!(difference(a.color[i], b.color[i]) < 1e-6, "{offset} {i}");
                 }
                 assert!(a.lit.contains(&1) && a.lit.contains(&0));
             }
