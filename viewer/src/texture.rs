@@ -42,6 +42,7 @@ impl Images {
         {
             let pixels = match &texture.source {
                 TextureSource::Inline(image) => Pixels::from_inline(image),
+                TextureSource::Encoded { bytes, .. } => Pixels::from_file(bytes, ""),
                 TextureSource::File { name, beside } => load_file(loader, beside, name),
             };
             match pixels {

@@ -351,7 +351,7 @@ impl Planner<'_> {
                 None => true,
                 Some(corners) => {
                     self.settings.allows_z_pass
-                        && zpass_is_safe(&object.bounds, self.view.eye, &corners, light_in_world)
+                        && zpass_is_safe(&object.bounds, self.view.eye, corners, light_in_world)
                 }
             };
             if is_z_pass {

@@ -173,7 +173,11 @@ impl ShaderKey {
         let mut keys = std::collections::BTreeSet::new();
         for look in looks() {
             for contribution in contributions(look.is_transparent) {
-                for is_parallel in [false, true] {
+                // No light is planned for what none reaches.
+                if !look.is_lit && matches!(contribution, Contribution::Light(_)) {
+                    continue;
+                }
+                for is_parallel in BOTH {
                     keys.insert(Self::new(&look, contribution, is_parallel));
                 }
             }

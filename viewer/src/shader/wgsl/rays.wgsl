@@ -65,7 +65,7 @@ fn depth_at(pixel: vec2i, sample: i32) -> f32 {
 }
 
 @compute @workgroup_size(8, 8)
-fn cast(@builtin(global_invocation_id) id: vec3u) {
+fn cast_rays(@builtin(global_invocation_id) id: vec3u) {
     // x, y, width, height of the part of the image that is drawn.
     let region = frame.region;
     if id.x >= region.z || id.y >= region.w {
