@@ -17,6 +17,8 @@ pub struct Layouts {
     pub strokes: BindGroupLayout,
     /// Group 2: positions, edges, triangles, entries.
     pub volumes: BindGroupLayout,
+    /// Group 2: one view of a light, at an offset.
+    pub map_view: BindGroupLayout,
     /// Group 3: depth maps, their sampler, their views.
     pub shadow_map: BindGroupLayout,
     /// Group 3: the mask of rays.
@@ -41,18 +43,7 @@ impl Layouts {
                     (both, STORAGE),
                 ],
             ),
-            pass: layout(
-                device,
-                "pass",
-                &[(
-                    both,
-                    BindingType::Buffer {
-                        ty: BufferBindingType::Uniform,
-                        has_dynamic_offset: true,
-                        min_binding_size: None,
-                    },
-                )],
-            ),
+            pass: layout(device, "pass", &[(both, DYNAMIC_UNIFORM)]),
             image: layout(
                 device,
                 "image",
@@ -72,6 +63,7 @@ impl Layouts {
             ),
             strokes: layout(device, "strokes", &[(vertex, STORAGE)]),
             volumes: layout(device, "volumes", &[(vertex, STORAGE); 4]),
+            map_view: layout(device, "map view", &[(vertex, DYNAMIC_UNIFORM)]),
             shadow_map: layout(
                 device,
                 "shadow map",
@@ -103,6 +95,13 @@ impl Layouts {
 pub const UNIFORM: BindingType = BindingType::Buffer {
     ty: BufferBindingType::Uniform,
     has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+/// A uniform buffer at an offset.
+pub const DYNAMIC_UNIFORM: BindingType = BindingType::Buffer {
+    ty: BufferBindingType::Uniform,
+    has_dynamic_offset: true,
     min_binding_size: None,
 };
 

@@ -152,12 +152,11 @@ impl Renderer {
         report.plan = start.elapsed();
 
         let start = Instant::now();
-        let (made, kept, time) = (self.volumes.made, self.volumes.kept, self.volumes.time);
+        let (made, kept) = (self.volumes.made, self.volumes.kept);
         self.prepare_volumes(&plan, settings);
         report.volumes = start.elapsed();
         report.volumes_made = self.volumes.made - made;
         report.volumes_kept = self.volumes.kept - kept;
-        let _ = time;
 
         let start = Instant::now();
         let before = self.pipelines.counts;
@@ -229,8 +228,7 @@ impl Renderer {
                 &self.layouts,
                 &self.content,
                 casters,
-                light,
-                &plan.lights[light as usize],
+                (light, &plan.lights[light as usize]),
                 method,
             );
         }

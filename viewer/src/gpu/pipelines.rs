@@ -8,9 +8,14 @@ use rustc_hash::FxHashMap;
 
 use super::binding::Layouts;
 use super::device::Gpu;
-use super::targets::{COLOR_FORMAT, DEPTH_FORMAT, OUTPUT_FORMAT};
+use super::targets::{COLOR_FORMAT, DEPTH_FORMAT, MAP_FORMAT, OUTPUT_FORMAT};
 use crate::content::Primitive;
 use crate::shader::{self, ShaderKey, ShadowLookup};
+
+/// The bits of the stencil that count while one keeps the result of earlier layers.
+const LAYER_BITS: u32 = 0x7f;
+/// The one that keeps it.
+pub const LAYER_FLAG: u32 = 0x80;
 
 /// How a surface shader is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -78,9 +83,24 @@ pub enum PipelineKey {
         part: VolumePart,
         /// The near plane cuts nothing.
         is_unclipped: bool,
+        /// Counts in seven bits; the eighth keeps what the layers before found.
+        is_layered: bool,
         /// Samples a pixel.
         samples: u32,
     },
+    /// Ends a layer of volumes: where the seven bits are not zero the eighth is set, and they
+    /// become zero.
+    EndLayer {
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Begins a layer: the seven bits become the reference.
+    BeginLayer {
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Draws depth as a light sees it.
+    Map,
     /// Draws the gradient.
     Background {
         /// Samples a pixel.
@@ -110,6 +130,7 @@ pub struct PipelineCounts {
 enum ModuleKey {
     Surface(ShaderKey),
     Volume,
+    Map,
     Background,
     Present(u32),
 }
@@ -134,7 +155,11 @@ impl Pipelines {
         let module_key = match key {
             PipelineKey::Surface { shader, .. } => ModuleKey::Surface(shader),
             PipelineKey::Volume { .. } => ModuleKey::Volume,
-            PipelineKey::Background { .. } => ModuleKey::Background,
+            PipelineKey::Map => ModuleKey::Map,
+            // Any triangle over the whole image will do.
+            PipelineKey::EndLayer { .. }
+            | PipelineKey::BeginLayer { .. }
+            | PipelineKey::Background { .. } => ModuleKey::Background,
             PipelineKey::Present { samples } => ModuleKey::Present(samples),
         };
         let module = match self.modules.entry(module_key) {
@@ -145,11 +170,36 @@ impl Pipelines {
             }
         };
         let pipeline = match key {
-            PipelineKey::Surface { .. } => surface(gpu, layouts, module, key),
-            PipelineKey::Volume { .. } => volume(gpu, layouts, module, key),
-            PipelineKey::Background { .. } | PipelineKey::Present { .. } => {
-                whole_image(gpu, module, key)
+            PipelineKey::Surface {
+                shader,
+                stage,
+                cull,
+                is_mirrored,
+                samples,
+            } => {
+                let front = front_face(!is_mirrored);
+                surface(gpu, layouts, module, &shader, (stage, cull, front, samples))
             }
+            PipelineKey::Volume {
+                part,
+                is_unclipped,
+                is_layered,
+                samples,
+            } => {
+                let mask = if is_layered { LAYER_BITS } else { 0xff };
+                volume(gpu, layouts, module, part, (is_unclipped, mask, samples))
+            }
+            PipelineKey::Map => map(gpu, layouts, module),
+            PipelineKey::EndLayer { samples } => {
+                layer(gpu, module, wgpu::CompareFunction::NotEqual, 0xff, samples)
+            }
+            PipelineKey::BeginLayer { samples } => {
+                layer(gpu, module, wgpu::CompareFunction::Always, LAYER_BITS, samples)
+            }
+            PipelineKey::Background { samples } => {
+                whole_image(gpu, module, "background", COLOR_FORMAT, samples)
+            }
+            PipelineKey::Present { .. } => whole_image(gpu, module, "present", OUTPUT_FORMAT, 1),
         };
         self.counts.pipelines += 1;
         self.counts.time += start.elapsed();
@@ -174,6 +224,7 @@ fn module(gpu: &Gpu, key: ModuleKey) -> wgpu::ShaderModule {
     let text = match key {
         ModuleKey::Surface(shader) => shader::emit(&shader),
         ModuleKey::Volume => format!("{}{}", shader::TYPES, shader::VOLUME),
+        ModuleKey::Map => format!("{}{}", shader::TYPES, shader::MAP),
         ModuleKey::Background => shader::BACKGROUND.to_owned(),
         ModuleKey::Present(samples) => shader::emit_present(samples),
     };
@@ -205,22 +256,21 @@ fn vertex_buffers(shader: &ShaderKey) -> Vec<Option<wgpu::VertexBufferLayout<'st
     ]
 }
 
+fn front_face(is_ccw: bool) -> wgpu::FrontFace {
+    if is_ccw {
+        wgpu::FrontFace::Ccw
+    } else {
+        wgpu::FrontFace::Cw
+    }
+}
+
 fn surface(
     gpu: &Gpu,
     layouts: &Layouts,
     module: &wgpu::ShaderModule,
-    key: PipelineKey,
+    shader: &ShaderKey,
+    (stage, cull, front_face, samples): (Stage, Cull, wgpu::FrontFace, u32),
 ) -> wgpu::RenderPipeline {
-    let PipelineKey::Surface {
-        shader,
-        stage,
-        cull,
-        is_mirrored,
-        samples,
-    } = key
-    else {
-        unreachable!("asked for a surface")
-    };
     let group_2 = match (shader.primitive, shader.texture) {
         (Primitive::Triangles, None) => None,
         (Primitive::Triangles, Some(_)) => Some(&layouts.image),
@@ -273,14 +323,10 @@ fn surface(
                 module,
                 entry_point: Some("place"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &vertex_buffers(&shader),
+                buffers: &vertex_buffers(shader),
             },
             primitive: wgpu::PrimitiveState {
-                front_face: if is_mirrored {
-                    wgpu::FrontFace::Cw
-                } else {
-                    wgpu::FrontFace::Ccw
-                },
+                front_face,
                 cull_mode: match cull {
                     Cull::None => None,
                     Cull::Back => Some(wgpu::Face::Back),
@@ -323,16 +369,9 @@ fn volume(
     gpu: &Gpu,
     layouts: &Layouts,
     module: &wgpu::ShaderModule,
-    key: PipelineKey,
+    part: VolumePart,
+    (is_unclipped, write_mask, samples): (bool, u32, u32),
 ) -> wgpu::RenderPipeline {
-    let PipelineKey::Volume {
-        part,
-        is_unclipped,
-        samples,
-    } = key
-    else {
-        unreachable!("asked for a volume")
-    };
     let layout = pipeline_layout(
         gpu,
         &[
@@ -381,11 +420,7 @@ fn volume(
                 buffers: &[],
             },
             primitive: wgpu::PrimitiveState {
-                front_face: if is_front_ccw {
-                    wgpu::FrontFace::Ccw
-                } else {
-                    wgpu::FrontFace::Cw
-                },
+                front_face: front_face(is_front_ccw),
                 cull_mode: None,
                 unclipped_depth: is_unclipped,
                 ..wgpu::PrimitiveState::default()
@@ -398,7 +433,7 @@ fn volume(
                     front,
                     back,
                     read_mask: 0xff,
-                    write_mask: 0xff,
+                    write_mask,
                 },
                 bias: wgpu::DepthBiasState::default(),
             }),
@@ -409,13 +444,102 @@ fn volume(
         })
 }
 
-/// A pipeline without geometry and without depth.
-fn whole_image(gpu: &Gpu, module: &wgpu::ShaderModule, key: PipelineKey) -> wgpu::RenderPipeline {
-    let (entry_point, format, samples) = match key {
-        PipelineKey::Present { .. } => ("present", OUTPUT_FORMAT, 1),
-        PipelineKey::Background { samples } => ("background", COLOR_FORMAT, samples),
-        _ => unreachable!("asked for a whole image"),
+/// Changes the stencil of the whole image where its seven bits compare with zero.
+fn layer(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    compare: wgpu::CompareFunction,
+    write_mask: u32,
+    samples: u32,
+) -> wgpu::RenderPipeline {
+    let face = wgpu::StencilFaceState {
+        compare,
+        pass_op: wgpu::StencilOperation::Replace,
+        ..wgpu::StencilFaceState::IGNORE
     };
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("layer"),
+            layout: Some(&pipeline_layout(gpu, &[])),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("whole"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(false),
+                depth_compare: Some(wgpu::CompareFunction::Always),
+                stencil: wgpu::StencilState {
+                    front: face,
+                    back: face,
+                    read_mask: LAYER_BITS,
+                    write_mask,
+                },
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: multisample(samples),
+            fragment: None,
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// Depth as a light sees it, moved away from it by two steps and twice the slope: what is lit must
+/// not shadow itself by rounding.
+fn map(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule) -> wgpu::RenderPipeline {
+    let layout = pipeline_layout(
+        gpu,
+        &[
+            Some(&layouts.scene),
+            Some(&layouts.pass),
+            Some(&layouts.map_view),
+        ],
+    );
+    const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("map"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("place_in_map"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[Some(wgpu::VertexBufferLayout {
+                    array_stride: 12,
+                    step_mode: wgpu::VertexStepMode::Vertex,
+                    attributes: &POSITION,
+                })],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: MAP_FORMAT,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Less),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState {
+                    constant: 2,
+                    slope_scale: 2.0,
+                    clamp: 0.0,
+                },
+            }),
+            multisample: multisample(1),
+            fragment: None,
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// A pipeline without geometry and without depth.
+fn whole_image(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    entry_point: &str,
+    format: wgpu::TextureFormat,
+    samples: u32,
+) -> wgpu::RenderPipeline {
     gpu.device
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry_point),

@@ -1,8 +1,8 @@
 //! Shadow volumes on the device: casters uploaded once, sides and caps for each light, kept while
 //! neither the light nor a caster moves.
 
+use std::borrow::Cow;
 use std::ops::Range;
-use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3, DVec4};
 use rustc_hash::FxHashMap;
@@ -13,21 +13,64 @@ use super::binding::{self, Layouts};
 use super::device::Gpu;
 use crate::content::{Content, LightShape, WorldLight};
 use crate::frame::{VolumeDraw, VolumeMethod};
-use crate::volume::{CastRule, CasterMesh, Method, Volume, extract, facing};
+use crate::volume::{
+    CastRule, CasterMesh, LayerCaster, Method, Volume, bisect, count_at_infinity, extract, facing,
+    layer_bound, split,
+};
 
 /// Where a caster's arrays begin in the shared buffers.
-#[derive(Clone, Copy, Debug)]
-struct Base {
-    edge: u32,
-    triangle: u32,
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Base {
+    /// First edge.
+    pub edge: u32,
+    /// First triangle.
+    pub triangle: u32,
+}
+
+/// Arrays of casters, one behind the other.
+#[derive(Default)]
+struct Arrays {
+    positions: Vec<[f32; 4]>,
+    edges: Vec<[u32; 4]>,
+    triangles: Vec<[u32; 4]>,
+    refs: Vec<u32>,
+}
+
+impl Arrays {
+    fn add(&mut self, mesh: &CasterMesh) -> Base {
+        let vertex = self.positions.len() as u32;
+        let base = Base {
+            edge: self.edges.len() as u32,
+            triangle: self.triangles.len() as u32,
+        };
+        self.positions.extend(&mesh.positions);
+        let edges = mesh.edges.iter();
+        let first_ref = self.refs.len() as u32;
+        self.edges.extend(
+            edges.map(|&[a, b, first, count]| [a + vertex, b + vertex, first + first_ref, count]),
+        );
+        self.refs.extend(&mesh.refs);
+        let triangles = mesh.triangles.iter();
+        self.triangles
+            .extend(triangles.map(|&[a, b, c, part]| [a + vertex, b + vertex, c + vertex, part]));
+        base
+    }
+
+    /// Positions, edges, triangles, references.
+    fn upload(&self, gpu: &Gpu) -> [wgpu::Buffer; 4] {
+        [
+            storage(gpu, "caster positions", bytemuck::cast_slice(&self.positions)),
+            storage(gpu, "caster edges", bytemuck::cast_slice(&self.edges)),
+            storage(gpu, "caster triangles", bytemuck::cast_slice(&self.triangles)),
+            storage(gpu, "caster references", bytemuck::cast_slice(&self.refs)),
+        ]
+    }
 }
 
 /// All casters.
 pub struct Casters {
     meshes: FxHashMap<MeshId, (CasterMesh, Base)>,
-    positions: wgpu::Buffer,
-    edges: wgpu::Buffer,
-    triangles: wgpu::Buffer,
+    buffers: [wgpu::Buffer; 4],
     /// Bytes on the device.
     pub bytes: u64,
 }
@@ -36,48 +79,37 @@ impl Casters {
     /// Welds and uploads the meshes of all casters.
     pub fn upload(gpu: &Gpu, scene: &Scene, content: &Content) -> Self {
         let mut meshes = FxHashMap::default();
-        let mut positions: Vec<[f32; 4]> = Vec::new();
-        let mut edges: Vec<[u32; 4]> = Vec::new();
-        let mut triangles: Vec<[u32; 4]> = Vec::new();
+        let mut arrays = Arrays::default();
         for object in content.objects.iter().filter(|object| object.is_caster()) {
             if meshes.contains_key(&object.mesh) {
                 continue;
             }
             let mesh = &scene.meshes[object.mesh.index()];
             let caster = CasterMesh::new(&mesh.positions, &mesh.indices);
-            let vertex = positions.len() as u32;
-            let base = Base {
-                edge: edges.len() as u32,
-                triangle: triangles.len() as u32,
-            };
-            positions.extend(&caster.positions);
-            edges.extend(
-                caster
-                    .edges
-                    .iter()
-                    .map(|&[a, b, first, count]| [a + vertex, b + vertex, first, count]),
-            );
-            triangles.extend(
-                caster
-                    .triangles
-                    .iter()
-                    .map(|&[a, b, c, part]| [a + vertex, b + vertex, c + vertex, part]),
-            );
+            let base = arrays.add(&caster);
             meshes.insert(object.mesh, (caster, base));
         }
-        let upload = |label, contents: &[u8]| storage(gpu, label, contents);
-        let bytes = (positions.len() + edges.len() + triangles.len()) as u64 * 16;
+        let buffers = arrays.upload(gpu);
         Self {
             meshes,
-            positions: upload("caster positions", bytemuck::cast_slice(&positions)),
-            edges: upload("caster edges", bytemuck::cast_slice(&edges)),
-            triangles: upload("caster triangles", bytemuck::cast_slice(&triangles)),
-            bytes,
+            bytes: buffers.iter().map(wgpu::Buffer::size).sum(),
+            buffers,
         }
+    }
+
+    /// The welded mesh of a caster, and where it begins in the shared buffers.
+    pub fn mesh(&self, id: MeshId) -> Option<&(CasterMesh, Base)> {
+        self.meshes.get(&id)
+    }
+
+    /// Positions, edges, triangles, references.
+    pub fn buffers(&self) -> &[wgpu::Buffer; 4] {
+        &self.buffers
     }
 }
 
-fn storage(gpu: &Gpu, label: &str, contents: &[u8]) -> wgpu::Buffer {
+/// A buffer that shaders read.
+pub fn storage(gpu: &Gpu, label: &str, contents: &[u8]) -> wgpu::Buffer {
     // A buffer of no bytes cannot be bound.
     let contents = if contents.is_empty() {
         &[0; 16]
@@ -92,19 +124,31 @@ fn storage(gpu: &Gpu, label: &str, contents: &[u8]) -> wgpu::Buffer {
         })
 }
 
-/// Entries of one object in the buffer of a light.
+/// Entries of one object, or of a part of it, in the buffer of a light.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Parts {
+    object: u32,
     sides: Range<u32>,
     cap_pos: Range<u32>,
     cap_neg: Range<u32>,
+}
+
+/// What the start value of z-pass is counted from, for a parallel projection.
+struct Signs {
+    object: u32,
+    /// Of a part of a caster.
+    part: Option<CasterMesh>,
+    signs: Vec<i8>,
 }
 
 /// The volumes of one light.
 pub struct LightVolumes {
     shape: LightShape,
     method: VolumeMethod,
-    parts: FxHashMap<u32, Parts>,
+    /// Sets of volumes that may share eight bits of stencil, each ascending by object.
+    layers: Vec<Vec<Parts>>,
+    /// For each of them.
+    signs: Vec<Vec<Signs>>,
     /// Group 2.
     pub group: wgpu::BindGroup,
     /// Side quads.
@@ -134,8 +178,6 @@ pub struct VolumeCache {
     pub made: u32,
     /// Lights whose volumes were kept.
     pub kept: u32,
-    /// Time taken to make volumes.
-    pub time: Duration,
 }
 
 impl VolumeCache {
@@ -146,8 +188,7 @@ impl VolumeCache {
         layouts: &Layouts,
         content: &Content,
         casters: &Casters,
-        index: u32,
-        light: &WorldLight,
+        (index, light): (u32, &WorldLight),
         method: VolumeMethod,
     ) {
         let is_kept = self
@@ -158,11 +199,9 @@ impl VolumeCache {
             self.kept += 1;
             return;
         }
-        let start = Instant::now();
         let made = make(gpu, layouts, content, casters, light, method);
         self.lights.insert(index, made);
         self.made += 1;
-        self.time += start.elapsed();
     }
 
     /// The volumes of a light.
@@ -172,22 +211,70 @@ impl VolumeCache {
 }
 
 impl LightVolumes {
-    /// The entries of these volumes, neighbours joined.
-    pub fn ranges(&self, draws: &[VolumeDraw]) -> VolumeRanges {
+    /// In how many goes the volumes are counted: more than one if more could lie on top of each
+    /// other than eight bits count.
+    pub fn layer_count(&self) -> usize {
+        self.layers.len()
+    }
+
+    /// The entries of these volumes in a layer, neighbours joined. `draws` ascend by object.
+    pub fn ranges(&self, layer: usize, draws: &[VolumeDraw]) -> VolumeRanges {
         let mut ranges = VolumeRanges::default();
-        for draw in draws {
-            let Some(parts) = self.parts.get(&draw.object) else {
-                continue;
-            };
-            if draw.is_z_pass {
-                join(&mut ranges.z_pass_sides, &parts.sides);
-            } else {
-                join(&mut ranges.z_fail_sides, &parts.sides);
-                join(&mut ranges.cap_pos, &parts.cap_pos);
-                join(&mut ranges.cap_neg, &parts.cap_neg);
+        let mut draws = draws.iter().peekable();
+        for parts in &self.layers[layer] {
+            while draws.next_if(|draw| draw.object < parts.object).is_some() {}
+            match draws.peek() {
+                Some(draw) if draw.object == parts.object => ranges.add(parts, draw.is_z_pass),
+                _ => {}
             }
         }
         ranges
+    }
+
+    /// How many of these volumes, of a layer, hold the point at infinity from where a parallel
+    /// projection looks.
+    pub fn count_at_infinity(
+        &self,
+        layer: usize,
+        content: &Content,
+        casters: &Casters,
+        draws: &[VolumeDraw],
+        towards_viewer: DVec3,
+    ) -> u32 {
+        let mut count = 0;
+        let mut draws = draws.iter().peekable();
+        for Signs {
+            object,
+            part,
+            signs,
+        } in &self.signs[layer]
+        {
+            while draws.next_if(|draw| draw.object < *object).is_some() {}
+            if draws.peek().is_none_or(|draw| draw.object != *object) {
+                continue;
+            }
+            let object = &content.objects[*object as usize];
+            let whole = casters.meshes.get(&object.mesh).map(|(mesh, _)| mesh);
+            let Some(mesh) = part.as_ref().or(whole) else {
+                continue;
+            };
+            let viewer_in_mesh = object.world_from_mesh.matrix3.inverse() * towards_viewer;
+            let light = light_in_mesh(&self.shape, &object.world_from_mesh);
+            count += count_at_infinity(mesh, signs, viewer_in_mesh, light);
+        }
+        count
+    }
+}
+
+impl VolumeRanges {
+    fn add(&mut self, parts: &Parts, is_z_pass: bool) {
+        if is_z_pass {
+            join(&mut self.z_pass_sides, &parts.sides);
+        } else {
+            join(&mut self.z_fail_sides, &parts.sides);
+            join(&mut self.cap_pos, &parts.cap_pos);
+            join(&mut self.cap_neg, &parts.cap_neg);
+        }
     }
 }
 
@@ -198,6 +285,16 @@ fn join(list: &mut Vec<Range<u32>>, range: &Range<u32>) {
     match list.last_mut() {
         Some(last) if last.end == range.start => last.end = range.end,
         _ => list.push(range.clone()),
+    }
+}
+
+/// The light in the world, homogeneous.
+pub fn light_in_world(light: &LightShape) -> DVec4 {
+    match *light {
+        LightShape::Directional { towards } => towards.extend(0.0),
+        LightShape::Point { p_in_world } | LightShape::Spot { p_in_world, .. } => {
+            p_in_world.extend(1.0)
+        }
     }
 }
 
@@ -214,6 +311,82 @@ pub fn light_in_mesh(light: &LightShape, world_from_mesh: &DAffine3) -> DVec4 {
     }
 }
 
+/// A caster, or a part of one, with its volume.
+struct Piece<'a> {
+    object: u32,
+    mesh: Cow<'a, CasterMesh>,
+    base: Base,
+    signs: Vec<i8>,
+    volume: Volume,
+}
+
+/// Makes volumes of one light.
+struct Maker<'a> {
+    content: &'a Content,
+    light: &'a WorldLight,
+    method: VolumeMethod,
+}
+
+/// Most layers that eight bits count, and that seven do when one bit keeps the result of the
+/// layers before.
+const MAX_LAYERS: u32 = 255;
+const MAX_SPLIT_LAYERS: u32 = 127;
+
+impl<'a> Maker<'a> {
+    fn piece(&self, object: u32, mesh: Cow<'a, CasterMesh>, base: Base) -> Piece<'a> {
+        let of = &self.content.objects[object as usize];
+        let light = light_in_mesh(&self.light.shape, &of.world_from_mesh);
+        let mut signs = Vec::new();
+        facing(&mesh, light, of.is_mirrored, CastRule::default(), &mut signs);
+        let mut volume = Volume::default();
+        let method = match self.method {
+            VolumeMethod::Silhouette => Method::Silhouette,
+            VolumeMethod::ReferenceEdge => Method::ReferenceEdge,
+            VolumeMethod::PerTriangle => Method::PerTriangle,
+        };
+        extract(&mesh, method, &signs, light, of.is_mirrored, &mut volume);
+        Piece {
+            object,
+            mesh,
+            base,
+            signs,
+            volume,
+        }
+    }
+
+    fn bound(&self, pieces: &[Piece<'_>], limit: u32) -> u32 {
+        let casters: Vec<LayerCaster<'_>> = pieces
+            .iter()
+            .map(|piece| LayerCaster {
+                mesh: &piece.mesh,
+                signs: &piece.signs,
+                sides: &piece.volume.sides,
+                frame_from_local: self.content.objects[piece.object as usize].world_from_mesh,
+            })
+            .collect();
+        layer_bound(&casters, light_in_world(&self.light.shape), limit)
+    }
+
+    /// Cuts pieces that alone have too many layers.
+    fn cut(&self, pieces: Vec<Piece<'a>>) -> Vec<Piece<'a>> {
+        let mut cut = Vec::new();
+        for piece in pieces {
+            let of = &self.content.objects[piece.object as usize];
+            let light = light_in_mesh(&self.light.shape, &of.world_from_mesh);
+            let ranges = split(&piece.mesh, light, CastRule::default(), MAX_SPLIT_LAYERS);
+            if ranges.len() <= 1 {
+                cut.push(piece);
+                continue;
+            }
+            for range in ranges {
+                let part = Cow::Owned(piece.mesh.part(range));
+                cut.push(self.piece(piece.object, part, Base::default()));
+            }
+        }
+        cut
+    }
+}
+
 fn make(
     gpu: &Gpu,
     layouts: &Layouts,
@@ -222,73 +395,128 @@ fn make(
     light: &WorldLight,
     method: VolumeMethod,
 ) -> LightVolumes {
-    let method_here = match method {
-        VolumeMethod::Silhouette => Method::Silhouette,
-        VolumeMethod::ReferenceEdge => Method::ReferenceEdge,
-        VolumeMethod::PerTriangle => Method::PerTriangle,
+    let maker = Maker {
+        content,
+        light,
+        method,
     };
-    let mut parts: FxHashMap<u32, Parts> = FxHashMap::default();
-    let [mut sides, mut pos, mut neg]: [Vec<[u32; 2]>; 3] = Default::default();
-    let mut volume = Volume::default();
-    let mut signs = Vec::new();
-    for (index, object) in (0..).zip(&content.objects) {
-        if !object.is_caster() {
-            continue;
+    let mut pieces: Vec<Piece<'_>> = (0..)
+        .zip(&content.objects)
+        .filter(|(_, object)| object.is_caster())
+        .filter_map(|(index, object)| {
+            let (mesh, base) = casters.meshes.get(&object.mesh)?;
+            Some(maker.piece(index, Cow::Borrowed(mesh), *base))
+        })
+        .collect();
+    let mut layers = vec![0..pieces.len()];
+    let mut own_buffers = None;
+    // A triangle of its own cancels nothing: its sides are up and down at once.
+    if maker.bound(&pieces, MAX_LAYERS) > MAX_LAYERS {
+        pieces = maker.cut(pieces);
+        let mut arrays = Arrays::default();
+        for piece in &mut pieces {
+            piece.base = arrays.add(&piece.mesh);
         }
-        let Some((mesh, base)) = casters.meshes.get(&object.mesh) else {
-            continue;
-        };
-        volume.clear();
-        let light = light_in_mesh(&light.shape, &object.world_from_mesh);
-        let is_mirrored = object.is_mirrored;
-        if method_here != Method::ReferenceEdge {
-            facing(mesh, light, is_mirrored, CastRule::default(), &mut signs);
-        }
-        extract(mesh, method_here, &signs, light, is_mirrored, &mut volume);
-        let push = |list: &mut Vec<[u32; 2]>, from: &[u32], base: u32| {
-            let start = list.len() as u32;
-            list.extend(from.iter().map(|&entry| [entry + base, index]));
-            start..list.len() as u32
-        };
-        let here = Parts {
-            sides: push(&mut sides, &volume.sides, base.edge << 1),
-            cap_pos: push(&mut pos, &volume.cap_pos, base.triangle),
-            cap_neg: push(&mut neg, &volume.cap_neg, base.triangle),
-        };
-        parts.insert(index, here);
+        own_buffers = Some(arrays.upload(gpu));
+        layers = bisect(0..pieces.len(), |range| {
+            maker.bound(&pieces[range], MAX_SPLIT_LAYERS) <= MAX_SPLIT_LAYERS
+        });
     }
-    let (side_count, pos_count) = (sides.len() as u32, pos.len() as u32);
-    for part in parts.values_mut() {
-        shift(&mut part.cap_pos, side_count);
-        shift(&mut part.cap_neg, side_count + pos_count);
+    let mut entries = Entries::default();
+    let mut parts: Vec<Vec<Parts>> = layers
+        .iter()
+        .map(|range| {
+            pieces[range.clone()]
+                .iter()
+                .map(|piece| entries.add(piece))
+                .collect()
+        })
+        .collect();
+    let (side_count, cap_count) = entries.counts();
+    for part in parts.iter_mut().flatten() {
+        entries.place(part);
     }
-    let cap_count = pos_count + neg.len() as u32;
-    sides.append(&mut pos);
-    sides.append(&mut neg);
-    let entries = storage(gpu, "volume entries", bytemuck::cast_slice(&sides));
+    let entries = storage(gpu, "volume entries", bytemuck::cast_slice(&entries.joined()));
+    let [positions, edges, triangles, _] = own_buffers.as_ref().unwrap_or(&casters.buffers);
     let group = binding::group(
         &gpu.device,
         "volumes",
         &layouts.volumes,
-        [
-            &casters.positions,
-            &casters.edges,
-            &casters.triangles,
-            &entries,
-        ]
-        .map(wgpu::Buffer::as_entire_binding)
-        .into(),
+        [positions, edges, triangles, &entries]
+            .map(wgpu::Buffer::as_entire_binding)
+            .into(),
     );
+    let mut pieces = pieces.into_iter();
+    let signs = layers
+        .into_iter()
+        .map(|range| pieces.by_ref().take(range.len()).map(signs_of).collect())
+        .collect();
     LightVolumes {
         shape: light.shape,
         method,
-        parts,
+        layers: parts,
+        signs,
         group,
         side_count,
         cap_count,
     }
 }
 
-fn shift(range: &mut Range<u32>, by: u32) {
-    *range = range.start + by..range.end + by;
+fn signs_of(piece: Piece<'_>) -> Signs {
+    Signs {
+        object: piece.object,
+        part: match piece.mesh {
+            Cow::Borrowed(_) => None,
+            Cow::Owned(mesh) => Some(mesh),
+        },
+        signs: piece.signs,
+    }
+}
+
+/// Entries while they are collected: sides first, then the two kinds of caps.
+#[derive(Default)]
+struct Entries {
+    sides: Vec<[u32; 2]>,
+    cap_pos: Vec<[u32; 2]>,
+    cap_neg: Vec<[u32; 2]>,
+}
+
+impl Entries {
+    fn add(&mut self, piece: &Piece<'_>) -> Parts {
+        let push = |list: &mut Vec<[u32; 2]>, from: &[u32], base: u32| {
+            let start = list.len() as u32;
+            list.extend(from.iter().map(|&entry| [entry + base, piece.object]));
+            start..list.len() as u32
+        };
+        let Base { edge, triangle } = piece.base;
+        Parts {
+            object: piece.object,
+            sides: push(&mut self.sides, &piece.volume.sides, edge << 1),
+            cap_pos: push(&mut self.cap_pos, &piece.volume.cap_pos, triangle),
+            cap_neg: push(&mut self.cap_neg, &piece.volume.cap_neg, triangle),
+        }
+    }
+
+    fn counts(&self) -> (u32, u32) {
+        let caps = self.cap_pos.len() + self.cap_neg.len();
+        (self.sides.len() as u32, caps as u32)
+    }
+
+    /// Moves ranges to where their list will be.
+    fn place(&self, parts: &mut Parts) {
+        let after_sides = self.sides.len() as u32;
+        let after_pos = after_sides + self.cap_pos.len() as u32;
+        for (range, by) in [
+            (&mut parts.cap_pos, after_sides),
+            (&mut parts.cap_neg, after_pos),
+        ] {
+            *range = range.start + by..range.end + by;
+        }
+    }
+
+    fn joined(mut self) -> Vec<[u32; 2]> {
+        self.sides.append(&mut self.cap_pos);
+        self.sides.append(&mut self.cap_neg);
+        self.sides
+    }
 }

@@ -111,8 +111,12 @@ pub struct ShaderKey {
 impl ShaderKey {
     /// The key for an object's look in a pass; what the text would not show is dropped.
     pub fn new(look: &Look, contribution: Contribution, is_parallel: bool) -> Self {
+        let blends = contribution == Contribution::All;
+        // What no light reaches shows the same in every pass that draws it whole.
         let contribution = match contribution {
-            Contribution::First(Some(_)) if !look.is_lit => Contribution::First(None),
+            Contribution::First(Some(_)) | Contribution::All if !look.is_lit => {
+                Contribution::First(None)
+            }
             other => other,
         };
         let shade = match contribution {
@@ -122,7 +126,6 @@ impl ShaderKey {
         };
         let is_lit = shade == Shade::Lit;
         let is_specular = is_lit && look.is_specular;
-        let blends = contribution == Contribution::All;
         let shows_base = shade != Shade::Constant
             && look
                 .texture
@@ -142,11 +145,6 @@ impl ShaderKey {
             }),
             fog: look.fog,
         }
-    }
-
-    /// Whether the alpha goes out and is blended with.
-    pub fn blends(&self) -> bool {
-        self.contribution == Contribution::All
     }
 
     /// Whether it draws all of a surface but the further lights: what is added once is added here.

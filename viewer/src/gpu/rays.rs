@@ -1,0 +1,283 @@
+//! Shadows by rays: a hierarchy of boxes over all casters, and a mask with a bit a sample.
+
+use glam::{DVec3, Vec3};
+use scenegraph::scene::Scene;
+
+use super::binding::{self, STORAGE};
+use super::device::Gpu;
+use super::targets::Targets;
+use super::volumes::storage;
+use crate::content::Content;
+use crate::shader;
+
+/// A box of the hierarchy, as `wgsl/rays.wgsl` reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Node {
+    low: [f32; 3],
+    /// Of an inner node the second child, of a leaf the first triangle.
+    first: u32,
+    high: [f32; 3],
+    /// Triangles of a leaf; 0 for an inner node.
+    count: u32,
+}
+
+/// Triangles in a leaf at most.
+const LEAF: usize = 4;
+
+/// Boxes and triangles of all casters, around the middle of the scene.
+pub struct Hierarchy {
+    nodes: Vec<Node>,
+    corners: Vec<[f32; 4]>,
+}
+
+#[derive(Clone, Copy)]
+struct Triangle {
+    corners: [Vec3; 3],
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Hierarchy {
+    /// Over the casters of `content`, relative to `origin`.
+    pub fn new(scene: &Scene, content: &Content, origin: DVec3) -> Self {
+        let mut triangles = Vec::new();
+        for object in content.objects.iter().filter(|object| object.is_caster()) {
+            let mesh = &scene.meshes[object.mesh.index()];
+            let mut rel = object.world_from_mesh;
+            rel.translation -= origin;
+            let at = |i: u32| {
+                let p = Vec3::from_array(mesh.positions[i as usize]).as_dvec3();
+                rel.transform_point3(p).as_vec3()
+            };
+            for index in mesh.indices.chunks_exact(3) {
+                let corners = [at(index[0]), at(index[1]), at(index[2])];
+                triangles.push(Triangle {
+                    corners,
+                    low: corners[0].min(corners[1]).min(corners[2]),
+                    high: corners[0].max(corners[1]).max(corners[2]),
+                });
+            }
+        }
+        let nodes = build(&mut triangles);
+        let corners = triangles
+            .iter()
+            .flat_map(|t| {
+                let [a, b, c] = t.corners;
+                [a, b - a, c - a].map(|v| v.extend(0.0).to_array())
+            })
+            .collect();
+        Self { nodes, corners }
+    }
+}
+
+/// Halves at the median of the longest axis of the middles: depth is the logarithm of the number,
+/// so the shader's stack of 64 never overflows.
+fn build(triangles: &mut [Triangle]) -> Vec<Node> {
+    let mut nodes = Vec::new();
+    // A range to build, and the node whose second child it is.
+    let mut open = vec![(0..triangles.len(), None::<usize>)];
+    while let Some((range, parent)) = open.pop() {
+        let index = nodes.len();
+        if let Some(parent) = parent {
+            let parent: &mut Node = &mut nodes[parent];
+            parent.first = index as u32;
+        }
+        let here = &mut triangles[range.clone()];
+        let mut low = Vec3::INFINITY;
+        let mut high = Vec3::NEG_INFINITY;
+        let mut low_middle = Vec3::INFINITY;
+        let mut high_middle = Vec3::NEG_INFINITY;
+        for triangle in here.iter() {
+            low = low.min(triangle.low);
+            high = high.max(triangle.high);
+            let middle = triangle.low + triangle.high;
+            low_middle = low_middle.min(middle);
+            high_middle = high_middle.max(middle);
+        }
+        let is_leaf = here.len() <= LEAF;
+        nodes.push(Node {
+            low: low.to_array(),
+            first: range.start as u32,
+            high: high.to_array(),
+            count: if is_leaf { here.len() as u32 } else { 0 },
+        });
+        if is_leaf {
+            continue;
+        }
+        let axis = (high_middle - low_middle).max_position();
+        let half = here.len() / 2;
+        here.select_nth_unstable_by(half, |a, b| {
+            (a.low[axis] + a.high[axis]).total_cmp(&(b.low[axis] + b.high[axis]))
+        });
+        let middle = range.start + half;
+        // The first child is the next node, so it is taken from the stack first.
+        open.push((middle..range.end, Some(index)));
+        open.push((range.start..middle, None));
+    }
+    nodes
+}
+
+/// What casting rays needs on the device.
+pub struct Rays {
+    nodes: wgpu::Buffer,
+    corners: wgpu::Buffer,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+    group: wgpu::BindGroup,
+    /// Group 3 while shading.
+    pub mask_group: wgpu::BindGroup,
+    size: (u32, u32, u32),
+}
+
+impl Rays {
+    /// Uploads a hierarchy, and makes a mask for images like `targets`.
+    pub fn new(
+        gpu: &Gpu,
+        layouts: &binding::Layouts,
+        hierarchy: &Hierarchy,
+        targets: &Targets,
+    ) -> Self {
+        let nodes = storage(gpu, "ray boxes", bytemuck::cast_slice(&hierarchy.nodes));
+        let corners = storage(gpu, "ray triangles", bytemuck::cast_slice(&hierarchy.corners));
+        let compute = wgpu::ShaderStages::COMPUTE;
+        let layout = binding::layout(
+            &gpu.device,
+            "rays",
+            &[
+                (compute, STORAGE),
+                (compute, STORAGE),
+                (
+                    compute,
+                    wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Depth,
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                        multisampled: targets.samples > 1,
+                    },
+                ),
+                (
+                    compute,
+                    wgpu::BindingType::StorageTexture {
+                        access: wgpu::StorageTextureAccess::WriteOnly,
+                        format: wgpu::TextureFormat::R32Uint,
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                    },
+                ),
+            ],
+        );
+        let module = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("rays"),
+                source: wgpu::ShaderSource::Wgsl(shader::emit_rays(targets.samples).into()),
+            });
+        let pipeline_layout =
+            gpu.device
+                .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                    label: Some("rays"),
+                    bind_group_layouts: &[
+                        Some(&layouts.scene),
+                        Some(&layouts.pass),
+                        Some(&layout),
+                    ],
+                    immediate_size: 0,
+                });
+        let pipeline = gpu
+            .device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("rays"),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some("cast_rays"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            });
+        let (group, mask_group) = groups(gpu, layouts, &layout, [&nodes, &corners], targets);
+        Self {
+            nodes,
+            corners,
+            layout,
+            pipeline,
+            group,
+            mask_group,
+            size: (targets.width, targets.height, targets.samples),
+        }
+    }
+
+    /// Whether these rays can be used for images like `targets`.
+    pub fn fits(&self, targets: &Targets) -> bool {
+        self.size == (targets.width, targets.height, targets.samples)
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.nodes.size() + self.corners.size()
+    }
+
+    /// Makes anew what depends on the images.
+    pub fn refit(&mut self, gpu: &Gpu, layouts: &binding::Layouts, targets: &Targets) {
+        let buffers = [&self.nodes, &self.corners];
+        (self.group, self.mask_group) = groups(gpu, layouts, &self.layout, buffers, targets);
+        self.size = (targets.width, targets.height, targets.samples);
+    }
+
+    /// Records the rays of one light.
+    pub fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene_group: &wgpu::BindGroup,
+        pass_group: &wgpu::BindGroup,
+        pass_offset: u32,
+        (width, height): (u32, u32),
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, scene_group, &[]);
+        pass.set_bind_group(1, pass_group, &[pass_offset]);
+        pass.set_bind_group(2, &self.group, &[]);
+        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
+    }
+}
+
+fn groups(
+    gpu: &Gpu,
+    layouts: &binding::Layouts,
+    layout: &wgpu::BindGroupLayout,
+    [nodes, corners]: [&wgpu::Buffer; 2],
+    targets: &Targets,
+) -> (wgpu::BindGroup, wgpu::BindGroup) {
+    let mask = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow mask"),
+        size: wgpu::Extent3d {
+            width: targets.width,
+            height: targets.height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::R32Uint,
+        usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let mask = mask.create_view(&wgpu::TextureViewDescriptor::default());
+    let group = binding::group(
+        &gpu.device,
+        "rays",
+        layout,
+        vec![
+            nodes.as_entire_binding(),
+            corners.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&targets.depth_only),
+            wgpu::BindingResource::TextureView(&mask),
+        ],
+    );
+    let mask_group = binding::group(
+        &gpu.device,
+        "shadow mask",
+        &layouts.shadow_mask,
+        vec![wgpu::BindingResource::TextureView(&mask)],
+    );
+    (group, mask_group)
+}
+
