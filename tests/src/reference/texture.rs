@@ -58,13 +58,13 @@ fn neighbours(s: f64, count: u32, wrap: Wrap) -> ([u32; 2], f64) {
     ([pixel(first), pixel(first + 1.0)], at - first)
 }
 
-/// The textures whose pixels stand in the file itself.
+/// The textures whose pixels stand in the scene itself, not encoded.
 pub fn inline_textures(scene: &Scene) -> BTreeMap<TextureId, RefTexture> {
     let ids = (0..).map(TextureId);
     ids.zip(&scene.textures)
         .filter_map(|(id, texture)| match &texture.source {
             TextureSource::Inline(image) => Some((id, decoded(image)?)),
-            TextureSource::File { .. } => None,
+            TextureSource::File { .. } | TextureSource::Encoded { .. } => None,
         })
         .collect()
 }
