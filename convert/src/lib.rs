@@ -13,6 +13,8 @@
 //! - what glTF cannot carry is listed in the [`Report`], and Inventor's own values are in
 //!   `extras.iv`, under the names of Inventor's fields.
 //!
+//! [`read_gltf`] is the way back, for files of others too.
+//!
 //! No question of Inventor's is asked here: defaults, inheritance and bindings are resolved in the
 //! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
 //! only.

@@ -3,14 +3,17 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use convert::{Model, ReadError, ReadLimits, read_gltf};
+use convert::{Model, Options, ReadError, ReadLimits, read_gltf};
 use glam::{DAffine3, DVec3};
-use scenegraph::scene::{Faces, LightKind, LightModel, Mesh, Projection, TextureSource, Wrap};
+use scenegraph::scene::{
+    Environment, EnvironmentId, Faces, LightKind, LightModel, Mesh, Projection, Scene, Texture,
+    TextureModel, TextureSource, Wrap,
+};
 use scenegraph::{LoadError, Loaded, Loader};
 use serde_json::{Value, json};
 
-use crate::read::assert_near;
-use crate::scenes::{shift, turn};
+use crate::read::{assert_near, convert_with};
+use crate::scenes::{Build, Images, file_texture, material, png, scale, shift, triangle, turn};
 
 /// Has one file, `a b.bin`, with these bytes.
 pub struct OneFile(pub Vec<u8>);
@@ -542,4 +545,65 @@ fn what_is_left_out_is_said() {
         read(&text, &bin).unwrap().warnings,
         ["animations are not played"]
     );
+}
+
+/// Written by the writer, and read back.
+fn back(scene: &Scene, images: &Images) -> Scene {
+    let bytes = convert_with(scene, &Options::default(), images).bytes;
+    read_bytes(&bytes, Vec::new()).unwrap().scene
+}
+
+#[test]
+fn an_image_mixed_with_the_colour_is_on_white() {
+    let texture = Texture {
+        model: TextureModel::Blend,
+        ..file_texture("a.png")
+    };
+    let build = Build::textured(texture, material());
+    let images = Images::with(&[("a.png", png(&[[9, 99, 199, 255]]))]);
+    let scene = back(&build.scene, &images);
+    assert_eq!(scene.textures[0].model, TextureModel::Modulate);
+    assert_eq!(scene.materials[0].diffuse_srgb, [1.0; 3]);
+}
+
+#[test]
+fn distances_of_a_camera_in_a_scaled_group_are_scaled() {
+    let mut build = Build::one(triangle(), material());
+    let height_angle_rad = 0.5;
+    build.camera(
+        None,
+        scale(3.0, 3.0, 3.0),
+        Projection::Perspective { height_angle_rad },
+    );
+    let camera = &back(&build.scene, &Images::default()).cameras[0];
+    let at = camera
+        .placement
+        .world_from_local
+        .transform_point3(camera.position);
+    assert_eq!(at, DVec3::new(0.0, 0.0, 15.0));
+    let distances = [
+        camera.near_distance,
+        camera.far_distance,
+        camera.focal_distance,
+    ];
+    assert_eq!(distances, [3.0, 30.0, 15.0]);
+}
+
+#[test]
+fn a_light_keeps_its_environment() {
+    let mut build = Build::one(triangle(), material());
+    let direction = DVec3::X;
+    build.light(
+        None,
+        DAffine3::IDENTITY,
+        LightKind::Directional { direction },
+    );
+    build.scene.environments.push(Environment {
+        ambient_intensity: 0.5,
+        ..Environment::default()
+    });
+    build.scene.lights[0].environment = EnvironmentId(1);
+    let scene = back(&build.scene, &Images::default());
+    assert_eq!(scene.environments, build.scene.environments);
+    assert_eq!(scene.lights[0].environment, EnvironmentId(1));
 }
