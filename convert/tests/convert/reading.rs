@@ -1,7 +1,7 @@
 //! Ordinary glTF, written by hand here, as scenes.
 
 use std::f64::consts::PI;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use convert::{Model, Options, ReadError, ReadLimits, read_gltf};
 use glam::{DAffine3, DVec3};
@@ -9,7 +9,7 @@ use scenegraph::scene::{
     Environment, EnvironmentId, Faces, LightKind, LightModel, Mesh, Projection, Scene, Texture,
     TextureModel, TextureSource, Wrap,
 };
-use scenegraph::{LoadError, Loaded, Loader};
+use scenegraph::{LoadError, Loader};
 use serde_json::{Value, json};
 
 use crate::read::{assert_near, convert_with};
@@ -19,14 +19,15 @@ use crate::scenes::{Build, Images, file_texture, material, png, scale, shift, tr
 pub struct OneFile(pub Vec<u8>);
 
 impl Loader for OneFile {
-    fn load(&self, beside: &Path, name: &str) -> Result<Loaded, LoadError> {
+    fn find(&self, beside: &Path, name: &str) -> Result<PathBuf, LoadError> {
         match (beside.to_str(), name) {
-            (Some("folder"), "a b.bin") => Ok(Loaded {
-                id: name.into(),
-                bytes: self.0.clone(),
-            }),
+            (Some("folder"), "a b.bin") => Ok(name.into()),
             _ => Err(LoadError::NotFound),
         }
+    }
+
+    fn read(&self, _: &Path) -> Result<Vec<u8>, LoadError> {
+        Ok(self.0.clone())
     }
 }
 

@@ -242,7 +242,6 @@ fn recovers() {
         ),
         ("DEF a{Cube{}} B {}", "a:{Cube{}} B{}", &["no-class"]),
         ("DEF a { x 1 }", "a:{x=1}", &["no-class"]),
-        ("DEF { x 1 }", "NULL {x=1}", &["bad-def", "no-class"]),
         ("DEF A } B {}", "NULL B{}", &["bad-def", "extra-brace"]),
         ("{ Cube {} }", "{Cube{}}", &["no-class"]),
         (

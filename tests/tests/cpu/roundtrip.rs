@@ -19,7 +19,10 @@ fn scene_of(bytes: &[u8], model: &Model) -> Scene {
     let clear = |placement: &mut Placement| placement.pos = nowhere;
     scene.nodes.iter_mut().for_each(|n| n.pos = nowhere);
     scene.meshes.iter_mut().for_each(|m| m.pos = nowhere);
-    scene.materials.iter_mut().for_each(|m| m.pos = nowhere);
+    scene.materials.iter_mut().for_each(|m| {
+        (m.pos, m.style_pos) = (nowhere, nowhere);
+    });
+    scene.environments.iter_mut().for_each(|e| e.pos = nowhere);
     scene.textures.iter_mut().for_each(|t| t.pos = nowhere);
     scene
         .instances
