@@ -68,8 +68,12 @@ pub(crate) fn area_vector(points: &[DVec3], factor: f64) -> AreaVector {
 pub(crate) fn range_factor(points: &[DVec3]) -> Option<f64> {
     const PLAIN: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
     // The bits of positive numbers are in order of size, with infinity and NaNs above all.
-    let magnitudes = points.iter().flat_map(|p| p.abs().to_array());
-    let max = f64::from_bits(magnitudes.map(f64::to_bits).max().unwrap_or(0));
+    let mut top = 0;
+    for p in points {
+        let [x, y, z] = p.abs().to_array().map(f64::to_bits);
+        top = top.max(x).max(y).max(z);
+    }
+    let max = f64::from_bits(top);
     let finite = max.is_finite();
     let factor = if max == 0.0 || PLAIN.contains(&max) {
         1.0
