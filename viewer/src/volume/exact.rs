@@ -10,8 +10,8 @@ use robust::Coord3D;
 
 /// Shewchuk's bound for a 3x3 determinant whose rows are rounded differences, relative to its
 /// permanent: *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
-/// Predicates* (1997), theorem 23. An exact row only makes the error smaller.
-const DETERMINANT_BOUND: f64 = (7.0 + 56.0 * UNIT_ROUNDOFF) * UNIT_ROUNDOFF;
+/// Predicates* (1997), theorem 23. Exact rows only make the error smaller.
+pub(crate) const DETERMINANT_BOUND: f64 = (7.0 + 56.0 * UNIT_ROUNDOFF) * UNIT_ROUNDOFF;
 
 /// A sum without rounding: a nonoverlapping expansion in increasing order without zeros
 /// (Shewchuk 1997, section 2.4).
@@ -80,7 +80,7 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 /// A determinant and a bound of its rounding error, the rows being exact, or rounded
 /// differences of exact numbers.
 #[inline]
-pub(crate) fn bounded_determinant(u: DVec3, v: DVec3, w: DVec3) -> (f64, f64) {
+fn bounded_determinant(u: DVec3, v: DVec3, w: DVec3) -> (f64, f64) {
     let (yz, zy) = (v.y * w.z, v.z * w.y);
     let (zx, xz) = (v.z * w.x, v.x * w.z);
     let (xy, yx) = (v.x * w.y, v.y * w.x);
