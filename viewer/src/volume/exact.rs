@@ -132,3 +132,33 @@ fn direction_sign_exact(d: DVec3, a: DVec3, b: DVec3, c: DVec3) -> i8 {
     }
     sum.sign()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Directions that leave a plane by less than rounding can see.
+        #[test]
+        fn directions_near_a_plane_have_exact_signs(
+            corners in prop::array::uniform3(prop::array::uniform3(-1_i64 << 18..=1 << 18)),
+            (i, j) in (-3_i64..=3, -3_i64..=3),
+            offset in prop::array::uniform3(-1_i64..=1),
+        ) {
+            let [a, b, c] = corners;
+            let span = |x: usize| i * (b[x] - a[x]) + j * (c[x] - a[x]);
+            let d = [0, 1, 2].map(|x| (span(x) << 30) + offset[x]);
+            let n = [(1, 2), (2, 0), (0, 1)].map(|(x, y)| {
+                let minor = (b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]);
+                i128::from(minor)
+            });
+            let expected: i128 = (0..3).map(|x| i128::from(d[x]) * n[x]).sum();
+            let vector = |v: [i64; 3]| DVec3::from(v.map(|x| x as f64));
+            let found = direction_sign(vector(d), vector(a), vector(b), vector(c));
+            prop_assert_eq!(i128::from(found), expected.signum());
+        }
+    }
+}

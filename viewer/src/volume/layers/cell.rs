@@ -1,6 +1,8 @@
 //! Sides and cells in the space of directions from a light, and how they lie to each other.
 //! Every doubt is left to the caller: signs are 0 where rounding leaves them open.
 
+use std::ops::Range;
+
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use crate::volume::exact::DETERMINANT_BOUND;
@@ -64,17 +66,35 @@ impl Cell {
         (self.min + across * DVec2::new(0.463_251, 0.528_417)).extend(1.0)
     }
 
-    pub(super) fn quarter(&self, quarter: usize) -> Self {
-        let middle = self.min.midpoint(self.max);
-        let (mut min, mut max) = (self.min, self.max);
-        for axis in 0..2 {
-            if quarter >> axis & 1 == 0 {
-                max[axis] = middle[axis];
-            } else {
-                min[axis] = middle[axis];
-            }
+    /// One of `divisions` times `divisions` parts.
+    pub(super) fn part(&self, divisions: usize, [column, row]: [usize; 2]) -> Self {
+        let at = |x: usize, y: usize| {
+            let fraction = DVec2::new(x as f64, y as f64) / divisions as f64;
+            self.min + (self.max - self.min) * fraction
+        };
+        Self {
+            min: at(column, row),
+            max: at(column + 1, row + 1),
         }
-        Self { min, max }
+    }
+
+    /// The columns and rows of the parts that a side and a margin may touch: those of the box
+    /// around its projection, or all if it is not in front of the light altogether.
+    pub(super) fn span(&self, divisions: usize, side: &Side, margin: f64) -> [Range<usize>; 2] {
+        if side.from.z <= 0.0 || side.to.z <= 0.0 {
+            return [0..divisions, 0..divisions];
+        }
+        let (from, to) = (side.from.xy() / side.from.z, side.to.xy() / side.to.z);
+        // Twice, so that the rounding of these few operations does not matter.
+        let (low, high) = (from.min(to) - 2.0 * margin, from.max(to) + 2.0 * margin);
+        let scale = divisions as f64 / (self.max - self.min);
+        let first = ((low - self.min) * scale).floor();
+        let last = ((high - self.min) * scale).floor();
+        // Conversions saturate, so what is outside ends up at the nearest part.
+        let range = |first: f64, last: f64| {
+            (first as usize).min(divisions - 1)..(last as usize).min(divisions - 1) + 1
+        };
+        [range(first.x, last.x), range(first.y, last.y)]
     }
 
     /// False only if the side is clear of the cell and a margin around it.

@@ -13,9 +13,9 @@
 //!
 //! because the straight way from the reference point to any other crosses a side at most
 //! once, and inwards only from its outer side. Cells are the faces of a cube around the light,
-//! or the box of the projection; the cell with the largest bound is cut in four until that
+//! or the box of the projection; the cell with the largest bound is cut until that
 //! bound is small enough or a budget is used up. The reference value of a cell is found by
-//! walking from that of the parent. Rounding only makes the bound larger: a crossing that is
+//! walking from that of the parent or a neighbour. Rounding only makes the bound larger: a crossing that is
 //! not certain counts, and a side that is near a cell touches it.
 
 mod cell;
@@ -47,12 +47,12 @@ pub struct LayerCaster<'a> {
 /// device may be off by in some four roundings of `f32`.
 const DEVICE_ERROR: f64 = 1.0 / (1 << 20) as f64;
 
-/// The most that sides are looked at for each side, and in all: some tenths of a second.
+/// The most that sides are looked at for each side, and in all: about a second's work.
 const LOOKS_PER_SIDE: usize = 256;
-const MAX_LOOKS: usize = 1 << 24;
+const MAX_LOOKS: usize = 1 << 23;
 
-/// Cells smaller than the device error are of no use.
-const MAX_DEPTH: u32 = 20;
+/// Sides for each part that a cell is cut into.
+const SIDES_PER_PART: f64 = 2.0;
 
 /// A number that no point's count exceeds, in the volumes of all these casters of one light
 /// together. Refined until it is at most `limit`, or until that is found to be impossible or
@@ -85,7 +85,6 @@ struct Node {
     /// The index of the root that the cell is in.
     root: usize,
     cell: Cell,
-    depth: u32,
     /// Not less than `N` at the cell's reference point.
     reference: u64,
     /// Indices of sides of the root.
@@ -99,7 +98,6 @@ impl Node {
             bound: 0,
             root: number,
             cell: root.cell,
-            depth: 0,
             reference: root.reference,
             touching: (0..).zip(&root.sides).map(|(i, _)| i).collect(),
         };
@@ -107,21 +105,84 @@ impl Node {
         node
     }
 
-    fn quarter(&self, root: &Root, quarter: usize) -> Self {
+    /// Parts along each axis when the cell is cut: so many that few sides touch each part,
+    /// but not so many that long sides are looked at too often.
+    fn divisions(&self, root: &Root) -> usize {
+        let count = self.touching.len();
+        let mut divisions = ((count as f64 / SIDES_PER_PART).sqrt() as usize).clamp(2, 256);
+        while divisions > 2 && self.looks(root, divisions) > count * 8 {
+            divisions /= 2;
+        }
+        divisions
+    }
+
+    /// How many pairs of a side and a part have to be looked at.
+    fn looks(&self, root: &Root, divisions: usize) -> usize {
+        let sides = self.touching.iter().map(|&i| &root.sides[i as usize]);
+        let spans = sides.map(|side| self.cell.span(divisions, side, root.margin));
+        spans
+            .map(|[columns, rows]| columns.len() * rows.len())
+            .sum()
+    }
+
+    fn cut(&self, root: &Root, divisions: usize) -> Vec<Self> {
         let side = |&i: &u32| &root.sides[i as usize];
-        let cell = self.cell.quarter(quarter);
-        let (from, to) = (self.cell.reference(), cell.reference());
-        let near = |i: &&u32| cell.may_touch(side(i), root.margin);
-        let mut node = Self {
-            bound: 0,
-            root: self.root,
-            cell,
-            depth: self.depth + 1,
-            reference: walk(self.reference, self.touching.iter().map(side), from, to),
-            touching: self.touching.iter().filter(near).copied().collect(),
+        // Row by row, every second row backwards: so neighbours in order are neighbours.
+        let place = |index: usize| {
+            let (row, column) = (index / divisions, index % divisions);
+            [
+                if row % 2 == 0 {
+                    column
+                } else {
+                    divisions - 1 - column
+                },
+                row,
+            ]
         };
-        node.bound = node.bound_of(root).min(self.bound);
-        node
+        let mut parts: Vec<Self> = (0..divisions * divisions)
+            .map(|index| Self {
+                bound: 0,
+                root: self.root,
+                cell: self.cell.part(divisions, place(index)),
+                reference: 0,
+                touching: Vec::new(),
+            })
+            .collect();
+        for i in &self.touching {
+            let [columns, rows] = self.cell.span(divisions, side(i), root.margin);
+            for row in rows {
+                for column in columns.clone() {
+                    let column = if row % 2 == 0 {
+                        column
+                    } else {
+                        divisions - 1 - column
+                    };
+                    let part = &mut parts[row * divisions + column];
+                    if part.cell.may_touch(side(i), root.margin) {
+                        part.touching.push(*i);
+                    }
+                }
+            }
+        }
+        // The straight way to the first part is in this cell; the ones after it are in two
+        // neighbours.
+        let mut at = self.cell.reference();
+        let mut reference = self.reference;
+        let mut passed = self.touching.clone();
+        for (index, part) in parts.iter_mut().enumerate() {
+            if index > 0 {
+                passed.extend(&part.touching);
+                passed.sort_unstable();
+                passed.dedup();
+            }
+            let next = part.cell.reference();
+            reference = walk(reference, passed.iter().map(side), at, next);
+            part.reference = reference;
+            part.bound = part.bound_of(root).min(self.bound);
+            at = next;
+            passed.clone_from(&part.touching);
+        }
+        parts
     }
 
     fn bound_of(&self, root: &Root) -> u64 {
@@ -162,19 +223,21 @@ fn refine(roots: &[Root], limit: u32) -> u32 {
     // The largest bound among cells that need not be cut.
     let mut settled = 0;
     while let Some(node) = open.pop() {
-        let looks = node.touching.len() * 4;
-        let small = node.bound <= limit || node.touching.is_empty();
-        if small || node.depth == MAX_DEPTH || looks > looks_left {
+        let root = &roots[node.root];
+        let size = (node.cell.max - node.cell.min).max_element();
+        let small = size < 4.0 * root.margin || node.touching.is_empty();
+        let divisions = node.divisions(root);
+        let looks = node.looks(root, divisions);
+        if node.bound <= limit || small || looks > looks_left {
             settled = settled.max(node.bound);
             break;
         }
         looks_left -= looks;
-        for quarter in 0..4 {
-            let child = node.quarter(&roots[node.root], quarter);
-            if child.bound > limit {
-                open.push(child);
+        for part in node.cut(root, divisions) {
+            if part.bound > limit {
+                open.push(part);
             } else {
-                settled = settled.max(child.bound);
+                settled = settled.max(part.bound);
             }
         }
     }
