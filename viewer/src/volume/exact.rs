@@ -10,8 +10,8 @@ use robust::Coord3D;
 
 /// Shewchuk's bound for a 3x3 determinant whose rows are rounded differences, relative to its
 /// permanent: *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
-/// Predicates* (1997), theorem 23. An exact row only makes the error smaller.
-const DETERMINANT_BOUND: f64 = (7.0 + 56.0 * UNIT_ROUNDOFF) * UNIT_ROUNDOFF;
+/// Predicates* (1997), theorem 23. Exact rows only make the error smaller.
+pub(crate) const DETERMINANT_BOUND: f64 = (7.0 + 56.0 * UNIT_ROUNDOFF) * UNIT_ROUNDOFF;
 
 /// A sum without rounding: a nonoverlapping expansion in increasing order without zeros
 /// (Shewchuk 1997, section 2.4).
@@ -80,7 +80,7 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 /// A determinant and a bound of its rounding error, the rows being exact, or rounded
 /// differences of exact numbers.
 #[inline]
-pub(crate) fn bounded_determinant(u: DVec3, v: DVec3, w: DVec3) -> (f64, f64) {
+fn bounded_determinant(u: DVec3, v: DVec3, w: DVec3) -> (f64, f64) {
     let (yz, zy) = (v.y * w.z, v.z * w.y);
     let (zx, xz) = (v.z * w.x, v.x * w.z);
     let (xy, yx) = (v.x * w.y, v.y * w.x);
@@ -131,4 +131,34 @@ fn direction_sign_exact(d: DVec3, a: DVec3, b: DVec3, c: DVec3) -> i8 {
         sum.add_product3(-u.y, v.x, d.z);
     }
     sum.sign()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Directions that leave a plane by less than rounding can see.
+        #[test]
+        fn directions_near_a_plane_have_exact_signs(
+            corners in prop::array::uniform3(prop::array::uniform3(-1_i64 << 18..=1 << 18)),
+            (i, j) in (-3_i64..=3, -3_i64..=3),
+            offset in prop::array::uniform3(-1_i64..=1),
+        ) {
+            let [a, b, c] = corners;
+            let span = |x: usize| i * (b[x] - a[x]) + j * (c[x] - a[x]);
+            let d = [0, 1, 2].map(|x| (span(x) << 30) + offset[x]);
+            let n = [(1, 2), (2, 0), (0, 1)].map(|(x, y)| {
+                let minor = (b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]);
+                i128::from(minor)
+            });
+            let expected: i128 = (0..3).map(|x| i128::from(d[x]) * n[x]).sum();
+            let vector = |v: [i64; 3]| DVec3::from(v.map(|x| x as f64));
+            let found = direction_sign(vector(d), vector(a), vector(b), vector(c));
+            prop_assert_eq!(i128::from(found), expected.signum());
+        }
+    }
 }

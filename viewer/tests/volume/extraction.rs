@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 use viewer::volume::{CastRule, CasterMesh, Method, Volume, extract, facing};
 
-use crate::oracle::{Case, blockers, volume_count};
+use crate::oracle::{Case, blockers, orientation, volume_count};
 use crate::soups::{case, directions, points};
 
 const METHODS: [Method; 3] = [
@@ -101,6 +101,17 @@ proptest! {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn signs_are_exact(case in case()) {
+        let mesh = case.mesh();
+        let mut signs = Vec::new();
+        facing(&mesh, case.light(), case.mirrored, CastRule::BothSigns, &mut signs);
+        for (&[a, b, c, _], &s) in mesh.triangles.iter().zip(&signs) {
+            let [a, b, c] = [a, b, c].map(|v| case.mesh_point(&mesh, v));
+            prop_assert_eq!(i128::from(s), -orientation([a, b, c, case.world_light()]));
         }
     }
 

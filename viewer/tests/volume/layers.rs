@@ -1,5 +1,7 @@
 //! Bounds of the count: never too small, and small where it matters; parts and their union.
 
+use std::ops::{Range, RangeInclusive};
+
 use glam::{DAffine3, DVec3, DVec4};
 use proptest::prelude::*;
 use viewer::volume::{
@@ -114,7 +116,8 @@ fn bounds_are_near_known_maxima() {
     }
     let mut shells = Model::default();
     (1..=5).for_each(|radius| shells.add_sphere([0.0; 3], radius as f32, 24, 12));
-    let rows: [(&str, &Model, [f64; 4], u32, std::ops::RangeInclusive<u32>); 8] = [
+    type Row<'a> = (&'a str, &'a Model, [f64; 4], u32, RangeInclusive<u32>);
+    let rows: [Row<'_>; 8] = [
         ("stack", &stack, [0.0, 0.0, 1.0, 0.0], 127, 300..=300),
         ("stack", &stack, [0.3, 0.2, 1.0, 0.0], 0, 7..=100),
         ("stack", &stack, [0.1, 0.2, 400.0, 1.0], 127, 300..=310),
@@ -144,13 +147,18 @@ fn bounds_are_near_known_maxima() {
 
 #[test]
 fn pieces_fit_or_are_single() {
-    let rows: [(std::ops::Range<usize>, usize, Vec<std::ops::Range<usize>>); 4] = [
-        (0..0, 3, vec![]),
-        (0..3, 3, vec![0..3]),
-        (2..8, 2, vec![2..3, 3..5, 5..6, 6..8]),
-        (0..2, 0, vec![0..1, 1..2]),
+    // Each piece by its end.
+    let rows: [(Range<usize>, usize, &[usize]); 4] = [
+        (0..0, 3, &[]),
+        (0..3, 3, &[3]),
+        (2..8, 2, &[3, 5, 6, 8]),
+        (0..2, 0, &[1, 2]),
     ];
     for (whole, most, expected) in rows {
-        assert_eq!(bisect(whole, |range| range.len() <= most), expected);
+        let pieces = bisect(whole.clone(), |range| range.len() <= most);
+        let ends: Vec<usize> = pieces.iter().map(|piece| piece.end).collect();
+        assert_eq!(ends, expected);
+        let covered: Vec<usize> = pieces.into_iter().flatten().collect();
+        assert_eq!(covered, whole.collect::<Vec<_>>());
     }
 }

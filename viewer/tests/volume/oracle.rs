@@ -51,7 +51,8 @@ impl Case {
         [x * SCALE, y * SCALE, z * SCALE, 1]
     }
 
-    fn mesh_point(&self, mesh: &CasterMesh, v: u32) -> Point {
+    /// A position of the mesh in the oracle's world.
+    pub fn mesh_point(&self, mesh: &CasterMesh, v: u32) -> Point {
         let [x, y, z, _] = mesh.positions[v as usize].map(|x| x as i128);
         self.world_point([x, y, z])
     }

@@ -63,7 +63,8 @@ fn components_know_their_winding_numbers() {
     let inside_out: Vec<u32> = faces.iter().rev().copied().collect();
     let twice = [faces, faces].concat();
     let one_turned = [0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3];
-    let rows: [(&[u32], bool, f64, Option<[i32; 2]>); 5] = [
+    type Row<'a> = (&'a [u32], bool, f64, Option<[i32; 2]>);
+    let rows: [Row<'_>; 5] = [
         (&faces, true, 4.5, Some([0, 1])),
         (&inside_out, true, -4.5, Some([-1, 0])),
         (&twice, true, 9.0, Some([0, 2])),
