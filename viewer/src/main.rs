@@ -44,6 +44,20 @@ fn main() -> ExitCode {
     };
     let mut settings = viewer::frame::Settings::default();
     settings.background_srgb = [[0.4, 0.5, 0.6], [0.8, 0.8, 0.8]];
+    use viewer::frame::{Extraction, Shadows, VolumeMethod};
+    let volumes = |method, extraction| Shadows::Volumes { method, extraction };
+    settings.shadows = match std::env::var("SH").as_deref() {
+        Ok("none") => Shadows::None,
+        Ok("map") => Shadows::Map { size: 2048 },
+        Ok("rays") => Shadows::Rays,
+        Ok("compute") => volumes(VolumeMethod::Silhouette, Extraction::Compute),
+        Ok("ref") => volumes(VolumeMethod::ReferenceEdge, Extraction::Cpu),
+        Ok("tri") => volumes(VolumeMethod::PerTriangle, Extraction::Cpu),
+        _ => Shadows::default(),
+    };
+    if std::env::var("MSAA").is_ok() {
+        settings.samples = 4;
+    }
     for _ in 0..2 {
         let (plan, report) = renderer.draw(&view, &region, (w, h), &settings).unwrap();
         eprintln!("{}\n{:?}", plan.brief(), report);

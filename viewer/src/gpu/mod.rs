@@ -1,15 +1,19 @@
 //! Everything that touches the device; no other module names wgpu.
 
 mod binding;
+mod compute;
 mod device;
-mod encode;
 mod frame_data;
 mod geometry;
 mod pipelines;
+mod rays;
 mod readback;
+mod record;
+mod renderer;
+mod shadow_map;
 mod targets;
 mod textures;
 mod volumes;
 
 pub use device::{AdapterChoice, Gpu, GpuError};
-pub use encode::{FrameReport, PassReport, Renderer};
+pub use renderer::{FrameReport, PassReport, Renderer};

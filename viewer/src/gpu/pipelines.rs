@@ -193,9 +193,13 @@ impl Pipelines {
             PipelineKey::EndLayer { samples } => {
                 layer(gpu, module, wgpu::CompareFunction::NotEqual, 0xff, samples)
             }
-            PipelineKey::BeginLayer { samples } => {
-                layer(gpu, module, wgpu::CompareFunction::Always, LAYER_BITS, samples)
-            }
+            PipelineKey::BeginLayer { samples } => layer(
+                gpu,
+                module,
+                wgpu::CompareFunction::Always,
+                LAYER_BITS,
+                samples,
+            ),
             PipelineKey::Background { samples } => {
                 whole_image(gpu, module, "background", COLOR_FORMAT, samples)
             }

@@ -139,7 +139,11 @@ impl Rays {
         targets: &Targets,
     ) -> Self {
         let nodes = storage(gpu, "ray boxes", bytemuck::cast_slice(&hierarchy.nodes));
-        let corners = storage(gpu, "ray triangles", bytemuck::cast_slice(&hierarchy.corners));
+        let corners = storage(
+            gpu,
+            "ray triangles",
+            bytemuck::cast_slice(&hierarchy.corners),
+        );
         let compute = wgpu::ShaderStages::COMPUTE;
         let layout = binding::layout(
             &gpu.device,
@@ -171,17 +175,13 @@ impl Rays {
                 label: Some("rays"),
                 source: wgpu::ShaderSource::Wgsl(shader::emit_rays(targets.samples).into()),
             });
-        let pipeline_layout =
-            gpu.device
-                .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                    label: Some("rays"),
-                    bind_group_layouts: &[
-                        Some(&layouts.scene),
-                        Some(&layouts.pass),
-                        Some(&layout),
-                    ],
-                    immediate_size: 0,
-                });
+        let pipeline_layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("rays"),
+                bind_group_layouts: &[Some(&layouts.scene), Some(&layouts.pass), Some(&layout)],
+                immediate_size: 0,
+            });
         let pipeline = gpu
             .device
             .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -207,6 +207,11 @@ impl Rays {
     /// Whether these rays can be used for images like `targets`.
     pub fn fits(&self, targets: &Targets) -> bool {
         self.size == (targets.width, targets.height, targets.samples)
+    }
+
+    /// Samples a pixel.
+    pub fn samples(&self) -> u32 {
+        self.size.2
     }
 
     /// Bytes on the device.
@@ -280,4 +285,3 @@ fn groups(
     );
     (group, mask_group)
 }
-

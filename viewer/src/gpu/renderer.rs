@@ -1,22 +1,27 @@
 //! A scene on the device, and the one way to draw it: plan, prepare what the plan needs, record,
 //! submit, wait.
 
-use std::ops::Range;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use rustc_hash::FxHashMap;
 use scenegraph::scene::Scene;
 
 use super::binding::{self, Layouts};
+use super::compute::{ComputedVolumes, Extractor};
 use super::device::{Gpu, GpuError};
-use super::frame_data::{self, FrameData, PASS_STRIDE};
-use super::geometry::{Geometry, MeshRange, TriangleRange};
-use super::pipelines::{Cull, PipelineCounts, PipelineKey, Pipelines, Stage, VolumePart};
+use super::frame_data::{self, FrameData};
+use super::geometry::Geometry;
+use super::pipelines::{PipelineCounts, PipelineKey, Pipelines, VolumePart};
+use super::rays::{Hierarchy, Rays};
 use super::readback;
+use super::record::{Recorder, culls, surface_key, volume_parts};
+use super::shadow_map::ShadowMap;
 use super::targets::Targets;
 use super::textures::Textures;
-use super::volumes::{Casters, VolumeCache, VolumeRanges};
-use crate::content::{Content, LightShape, Object, Primitive};
-use crate::frame::{self, Pass, PassKind, Plan, Settings, Shadows};
+use super::volumes::{Casters, VolumeCache};
+use crate::content::{Content, LightShape, WorldLight};
+use crate::frame::{self, Extraction, PassKind, Plan, Settings, Shadows, VolumeMethod};
 use crate::texture::Images;
 use crate::view::{DepthRange, Region, View};
 
@@ -25,8 +30,10 @@ use crate::view::{DepthRange, Region, View};
 pub struct FrameReport {
     /// Planning.
     pub plan: Duration,
-    /// Making shadow volumes.
-    pub volumes: Duration,
+    /// Making shadow volumes, maps or ray structures.
+    pub shadows: Duration,
+    /// Making shaders and pipelines.
+    pub compile: Duration,
     /// Writing numbers and recording commands.
     pub encode: Duration,
     /// Waiting for the device.
@@ -55,16 +62,21 @@ pub struct Renderer {
     /// The device.
     pub gpu: Gpu,
     layouts: Layouts,
-    pipelines: Pipelines,
-    frame_data: FrameData,
+    pub(super) pipelines: Pipelines,
+    pub(super) frame_data: FrameData,
     targets: Option<Targets>,
-    content: Content,
-    geometry: Geometry,
-    textures: Textures,
-    strokes: [wgpu::BindGroup; 2],
-    casters: Option<Casters>,
-    volumes: VolumeCache,
-    scene: std::sync::Arc<Scene>,
+    pub(super) content: Content,
+    pub(super) geometry: Geometry,
+    pub(super) textures: Textures,
+    pub(super) strokes: [wgpu::BindGroup; 2],
+    pub(super) casters: Option<Casters>,
+    pub(super) volumes: VolumeCache,
+    extractor: Option<Extractor>,
+    /// By light, with the shape it had.
+    computed: FxHashMap<u32, (LightShape, ComputedVolumes)>,
+    pub(super) maps: FxHashMap<u32, ShadowMap>,
+    pub(super) rays: Option<Rays>,
+    scene: Arc<Scene>,
     /// Time taken to upload the scene.
     pub upload_time: Duration,
 }
@@ -75,7 +87,7 @@ impl Renderer {
     /// # Errors
     ///
     /// [`GpuError::Device`] if it does not fit.
-    pub fn new(gpu: Gpu, scene: std::sync::Arc<Scene>, images: &Images) -> Result<Self, GpuError> {
+    pub fn new(gpu: Gpu, scene: Arc<Scene>, images: &Images) -> Result<Self, GpuError> {
         let start = Instant::now();
         let layouts = Layouts::new(&gpu.device);
         let frame_data = FrameData::new(&gpu, &layouts);
@@ -103,6 +115,10 @@ impl Renderer {
             strokes,
             casters: None,
             volumes: VolumeCache::default(),
+            extractor: None,
+            computed: FxHashMap::default(),
+            maps: FxHashMap::default(),
+            rays: None,
             scene,
             upload_time: start.elapsed(),
         })
@@ -154,16 +170,19 @@ impl Renderer {
 
         let start = Instant::now();
         let (made, kept) = (self.volumes.made, self.volumes.kept);
-        self.prepare_volumes(&plan, settings);
-        report.volumes = start.elapsed();
+        self.fit_targets(width, height, settings.samples);
+        self.prepare_shadows(&plan, view, settings);
+        report.shadows = start.elapsed();
         report.volumes_made = self.volumes.made - made;
         report.volumes_kept = self.volumes.kept - kept;
 
         let start = Instant::now();
         let before = self.pipelines.counts;
-        self.fit_targets(width, height, settings.samples);
         self.prepare_pipelines(&plan, settings);
         report.pipelines = difference(self.pipelines.counts, before);
+        report.compile = start.elapsed();
+
+        let start = Instant::now();
         let numbers = frame_data::frame(
             view,
             view.clip_from_view(region.aspect, range),
@@ -178,7 +197,7 @@ impl Renderer {
             &numbers,
             view,
         );
-        let commands = self.record(&plan, region, settings, &mut report);
+        let commands = self.record(&plan, view, region, settings, &mut report);
         self.gpu.queue.submit([commands]);
         report.encode = start.elapsed();
 
@@ -213,26 +232,90 @@ impl Renderer {
         }
     }
 
-    fn prepare_volumes(&mut self, plan: &Plan, settings: &Settings) {
-        let Shadows::Volumes { method, .. } = settings.shadows else {
+    fn prepare_shadows(&mut self, plan: &Plan, view: &View, settings: &Settings) {
+        self.maps.clear();
+        for pass in &plan.passes {
+            match (pass.kind, settings.shadows) {
+                (PassKind::Volumes { light }, Shadows::Volumes { method, extraction }) => {
+                    let world_light = &plan.lights[light as usize];
+                    self.prepare_volumes(light, world_light, method, extraction);
+                }
+                (PassKind::Map { light }, Shadows::Map { size }) => {
+                    let map = ShadowMap::new(
+                        &self.gpu,
+                        &self.layouts,
+                        &self.content,
+                        &plan.lights[light as usize],
+                        view.eye,
+                        size,
+                    );
+                    self.maps.insert(light, map);
+                }
+                (PassKind::Rays { .. }, _) => self.prepare_rays(),
+                _ => {}
+            }
+        }
+    }
+
+    fn prepare_volumes(
+        &mut self,
+        light: u32,
+        world_light: &WorldLight,
+        method: VolumeMethod,
+        extraction: Extraction,
+    ) {
+        let (gpu, content) = (&self.gpu, &self.content);
+        let casters = self
+            .casters
+            .get_or_insert_with(|| Casters::upload(gpu, &self.scene, content));
+        let indexed = (light, world_light);
+        self.volumes
+            .prepare(gpu, &self.layouts, content, casters, indexed, method);
+        let computes = method == VolumeMethod::Silhouette
+            && match extraction {
+                Extraction::Auto => !gpu.is_software(),
+                Extraction::Cpu => false,
+                Extraction::Compute => true,
+            };
+        let is_layered = self
+            .volumes
+            .of(light)
+            .is_some_and(|volumes| volumes.layer_count() > 1);
+        if !computes || is_layered {
+            self.computed.remove(&light);
+            return;
+        }
+        let is_kept = self
+            .computed
+            .get(&light)
+            .is_some_and(|(shape, _)| *shape == world_light.shape);
+        if !is_kept {
+            let extractor = self.extractor.get_or_insert_with(|| Extractor::new(gpu));
+            let made = extractor.extract(gpu, &self.layouts.volumes, content, casters, world_light);
+            self.computed.insert(light, (world_light.shape, made));
+        }
+    }
+
+    fn prepare_rays(&mut self) {
+        let Some(targets) = &self.targets else {
             return;
         };
-        for pass in &plan.passes {
-            let PassKind::Volumes { light } = pass.kind else {
-                continue;
-            };
-            let casters = self
-                .casters
-                .get_or_insert_with(|| Casters::upload(&self.gpu, &self.scene, &self.content));
-            self.volumes.prepare(
-                &self.gpu,
-                &self.layouts,
-                &self.content,
-                casters,
-                (light, &plan.lights[light as usize]),
-                method,
-            );
+        match &mut self.rays {
+            Some(rays) if rays.fits(targets) => {}
+            Some(rays) if rays.samples() == targets.samples => {
+                rays.refit(&self.gpu, &self.layouts, targets);
+            }
+            _ => {
+                let origin = self.content.bounds.center();
+                let hierarchy = Hierarchy::new(&self.scene, &self.content, origin);
+                self.rays = Some(Rays::new(&self.gpu, &self.layouts, &hierarchy, targets));
+            }
         }
+    }
+
+    /// The volumes of a light that the device made, if it did.
+    pub(super) fn computed(&self, light: u32) -> Option<&ComputedVolumes> {
+        self.computed.get(&light).map(|(_, volumes)| volumes)
     }
 
     fn prepare_pipelines(&mut self, plan: &Plan, settings: &Settings) {
@@ -248,8 +331,19 @@ impl Renderer {
                     keys.push(surface_key(pass, object, draw, cull, samples));
                 }
             }
+            let PassKind::Volumes { light } = pass.kind else {
+                if let PassKind::Map { .. } = pass.kind {
+                    keys.push(PipelineKey::Map);
+                }
+                continue;
+            };
+            let layers = self.volumes.of(light).map_or(1, |v| v.layer_count());
             for part in volume_parts(pass, plan) {
-                keys.push(self.volume_key(part, samples));
+                keys.push(self.volume_key(part, layers > 1, samples));
+            }
+            if layers > 1 {
+                keys.push(PipelineKey::EndLayer { samples });
+                keys.push(PipelineKey::BeginLayer { samples });
             }
         }
         for key in keys {
@@ -257,10 +351,16 @@ impl Renderer {
         }
     }
 
-    fn volume_key(&self, part: VolumePart, samples: u32) -> PipelineKey {
+    pub(super) fn volume_key(
+        &self,
+        part: VolumePart,
+        is_layered: bool,
+        samples: u32,
+    ) -> PipelineKey {
         PipelineKey::Volume {
             part,
             is_unclipped: part == VolumePart::ZPassSides && self.gpu.has_depth_clip_control,
+            is_layered,
             samples,
         }
     }
@@ -268,6 +368,7 @@ impl Renderer {
     fn record(
         &self,
         plan: &Plan,
+        view: &View,
         region: &Region,
         settings: &Settings,
         report: &mut FrameReport,
@@ -280,6 +381,7 @@ impl Renderer {
             let recorder = Recorder {
                 renderer: self,
                 targets,
+                view,
                 region,
                 settings,
                 plan,
@@ -302,4 +404,3 @@ fn difference(now: PipelineCounts, before: PipelineCounts) -> PipelineCounts {
         time: now.time.saturating_sub(before.time),
     }
 }
-

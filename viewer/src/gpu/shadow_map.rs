@@ -1,6 +1,6 @@
 //! Shadow maps: depth as a light sees it. A method to compare with; it is made anew each frame.
 
-use glam::{DMat4, DVec3};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 
 use super::binding::{self, Layouts};
 use super::device::Gpu;
@@ -71,7 +71,10 @@ impl ShadowMap {
         let matrices: Vec<[[f32; 4]; 4]> = (0..6)
             .map(|face| {
                 let view = views.get(face).or(views.first());
-                view.copied().unwrap_or_default().as_mat4().to_cols_array_2d()
+                view.copied()
+                    .unwrap_or_default()
+                    .as_mat4()
+                    .to_cols_array_2d()
             })
             .collect();
         let spaced: Vec<u8> = matrices
@@ -145,17 +148,10 @@ fn map_views(bounds: &Aabb, shape: &LightShape, eye: DVec3) -> Vec<DMat4> {
                 .fold(0.0, f64::max);
             // What is nearer to the light than a thousandth of the scene throws no shadow.
             let far = if far > 0.0 { far * 1.01 } else { 1.0 };
-            let projection = DMat4::perspective_rh(
-                std::f64::consts::FRAC_PI_2,
-                1.0,
-                far / 1000.0,
-                far,
-            );
+            let projection = right_angle(far / 1000.0, far);
             let to_light = DMat4::from_translation(eye - p_in_world);
             FACES
-                .map(|(forward, up)| {
-                    projection * DMat4::look_to_rh(DVec3::ZERO, forward, up) * to_light
-                })
+                .map(|(forward, up)| projection * look(forward, up) * to_light)
                 .into()
         }
     }
@@ -178,7 +174,7 @@ fn directional(bounds: &Aabb, towards: DVec3, eye: DVec3) -> DMat4 {
     } else {
         DVec3::X
     };
-    let turn = DMat4::look_to_rh(DVec3::ZERO, -towards, up);
+    let turn = look(-towards, up);
     let half = bounds
         .corners()
         .iter()
@@ -186,7 +182,33 @@ fn directional(bounds: &Aabb, towards: DVec3, eye: DVec3) -> DMat4 {
         .fold(DVec3::ZERO, DVec3::max)
         * 1.01
         + DVec3::splat(f64::MIN_POSITIVE);
-    let projection =
-        DMat4::orthographic_rh(-half.x, half.x, -half.y, half.y, -half.z, half.z);
+    let projection = parallel(half);
     projection * turn * DMat4::from_translation(eye - center)
+}
+
+/// Turns a direction into -Z, and another towards +Y.
+fn look(forward: DVec3, up: DVec3) -> DMat4 {
+    let right = forward.cross(up).normalize_or_zero();
+    let up = right.cross(forward);
+    DMat4::from_mat3(DMat3::from_cols(right, up, -forward).transpose())
+}
+
+/// A field of view of 90 degrees; depth 0 at `near`, 1 at `far`.
+fn right_angle(near: f64, far: f64) -> DMat4 {
+    DMat4::from_cols(
+        DVec4::X,
+        DVec4::Y,
+        DVec4::new(0.0, 0.0, far / (near - far), -1.0),
+        DVec4::new(0.0, 0.0, near * far / (near - far), 0.0),
+    )
+}
+
+/// A box around the origin; depth 0 at its +Z side, 1 at its -Z side.
+fn parallel(half: DVec3) -> DMat4 {
+    DMat4::from_cols(
+        DVec4::X / half.x,
+        DVec4::Y / half.y,
+        DVec4::Z * (-0.5 / half.z),
+        DVec4::new(0.0, 0.0, 0.5, 1.0),
+    )
 }

@@ -59,9 +59,17 @@ impl Arrays {
     /// Positions, edges, triangles, references.
     fn upload(&self, gpu: &Gpu) -> [wgpu::Buffer; 4] {
         [
-            storage(gpu, "caster positions", bytemuck::cast_slice(&self.positions)),
+            storage(
+                gpu,
+                "caster positions",
+                bytemuck::cast_slice(&self.positions),
+            ),
             storage(gpu, "caster edges", bytemuck::cast_slice(&self.edges)),
-            storage(gpu, "caster triangles", bytemuck::cast_slice(&self.triangles)),
+            storage(
+                gpu,
+                "caster triangles",
+                bytemuck::cast_slice(&self.triangles),
+            ),
             storage(gpu, "caster references", bytemuck::cast_slice(&self.refs)),
         ]
     }
@@ -337,7 +345,13 @@ impl<'a> Maker<'a> {
         let of = &self.content.objects[object as usize];
         let light = light_in_mesh(&self.light.shape, &of.world_from_mesh);
         let mut signs = Vec::new();
-        facing(&mesh, light, of.is_mirrored, CastRule::default(), &mut signs);
+        facing(
+            &mesh,
+            light,
+            of.is_mirrored,
+            CastRule::default(),
+            &mut signs,
+        );
         let mut volume = Volume::default();
         let method = match self.method {
             VolumeMethod::Silhouette => Method::Silhouette,
@@ -436,7 +450,11 @@ fn make(
     for part in parts.iter_mut().flatten() {
         entries.place(part);
     }
-    let entries = storage(gpu, "volume entries", bytemuck::cast_slice(&entries.joined()));
+    let entries = storage(
+        gpu,
+        "volume entries",
+        bytemuck::cast_slice(&entries.joined()),
+    );
     let [positions, edges, triangles, _] = own_buffers.as_ref().unwrap_or(&casters.buffers);
     let group = binding::group(
         &gpu.device,
