@@ -42,10 +42,10 @@
 //! | --- | --- |
 //! | [`topology`] | the welded mesh with edges of any valence |
 //! | [`component`] | connected components: are they closed, which winding numbers occur |
-//! | [`facing`] | the sign of each triangle |
-//! | [`extract`] | sides and caps, by one of three methods |
+//! | [`mod@facing`] | the sign of each triangle |
+//! | [`mod@extract`] | sides and caps, by one of three methods |
 //! | [`layers`] | a bound of the count |
-//! | [`split`] | a mesh in parts whose counts are bounded |
+//! | [`mod@split`] | a mesh in parts whose counts are bounded |
 //! | [`zpass`] | when, and from which value, to count from the near plane |
 //! | [`cull`] | which volumes cannot be seen |
 

@@ -146,6 +146,23 @@ fn bounds_are_near_known_maxima() {
 }
 
 #[test]
+fn all_directions_are_bounded() {
+    for axis in 0..3 {
+        for sign in [-1.0, 1.0] {
+            let mut stack = Model::default();
+            (0..40).for_each(|layer| stack.add_quad(1.0 + layer as f32 / 80.0));
+            for p in &mut stack.positions {
+                p.rotate_right(axis + 1);
+                p[axis] *= sign;
+            }
+            let light = [0.01, 0.02, 0.03, 1.0];
+            let bound = bound_of(&stack, light, CastRule::BothSigns, 39);
+            assert!((40..=60).contains(&bound), "{axis} {sign}: {bound}");
+        }
+    }
+}
+
+#[test]
 fn pieces_fit_or_are_single() {
     // Each piece by its end.
     let rows: [(Range<usize>, usize, &[usize]); 4] = [

@@ -15,8 +15,8 @@
 //! once, and inwards only from its outer side. Cells are the faces of a cube around the light,
 //! or the box of the projection; the cell with the largest bound is cut until that
 //! bound is small enough or a budget is used up. The reference value of a cell is found by
-//! walking from that of the parent or a neighbour. Rounding only makes the bound larger: a crossing that is
-//! not certain counts, and a side that is near a cell touches it.
+//! walking from that of the parent or a neighbour. Rounding only makes the bound larger: a
+//! crossing that is not certain counts, and a side that is near a cell touches it.
 
 mod cell;
 mod roots;
