@@ -48,7 +48,9 @@ fn main() -> ExitCode {
     let volumes = |method, extraction| Shadows::Volumes { method, extraction };
     settings.shadows = match std::env::var("SH").as_deref() {
         Ok("none") => Shadows::None,
-        Ok("map") => Shadows::Map { size: 2048 },
+        Ok("map") => Shadows::Map {
+            size: std::env::var("MS").unwrap().parse().unwrap(),
+        },
         Ok("rays") => Shadows::Rays,
         Ok("compute") => volumes(VolumeMethod::Silhouette, Extraction::Compute),
         Ok("ref") => volumes(VolumeMethod::ReferenceEdge, Extraction::Cpu),

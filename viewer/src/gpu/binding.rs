@@ -13,6 +13,9 @@ pub struct Layouts {
     pub pass: BindGroupLayout,
     /// Group 2: an image and its sampler.
     pub image: BindGroupLayout,
+    /// Group 2 where a group 3 follows and nothing else is there: Mesa 22's lavapipe reads group 3
+    /// wrongly behind a gap.
+    pub nothing: BindGroupLayout,
     /// Group 2: ends of lines, or points.
     pub strokes: BindGroupLayout,
     /// Group 2: positions, edges, triangles, entries.
@@ -61,6 +64,7 @@ impl Layouts {
                     ),
                 ],
             ),
+            nothing: layout(device, "nothing", &[]),
             strokes: layout(device, "strokes", &[(vertex, STORAGE)]),
             volumes: layout(device, "volumes", &[(vertex, STORAGE); 4]),
             map_view: layout(device, "map view", &[(vertex, DYNAMIC_UNIFORM)]),

@@ -275,15 +275,15 @@ fn surface(
     shader: &ShaderKey,
     (stage, cull, front_face, samples): (Stage, Cull, wgpu::FrontFace, u32),
 ) -> wgpu::RenderPipeline {
-    let group_2 = match (shader.primitive, shader.texture) {
-        (Primitive::Triangles, None) => None,
-        (Primitive::Triangles, Some(_)) => Some(&layouts.image),
-        _ => Some(&layouts.strokes),
-    };
     let group_3 = match shader.light().map(|light| light.shadow) {
         Some(ShadowLookup::Map | ShadowLookup::CubeMap) => Some(&layouts.shadow_map),
         Some(ShadowLookup::Mask) => Some(&layouts.shadow_mask),
         _ => None,
+    };
+    let group_2 = match (shader.primitive, shader.texture) {
+        (Primitive::Triangles, None) => group_3.map(|_| &layouts.nothing),
+        (Primitive::Triangles, Some(_)) => Some(&layouts.image),
+        _ => Some(&layouts.strokes),
     };
     let layout = pipeline_layout(
         gpu,

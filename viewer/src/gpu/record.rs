@@ -53,16 +53,24 @@ pub(super) fn surface_key(
 }
 
 /// The parts of volumes that a pass draws. A directional light needs no dark caps: at infinity
-/// they are one point.
-pub(super) fn volume_parts(pass: &Pass, plan: &Plan) -> Vec<VolumePart> {
+/// they are one point. `is_one_list`: the volumes of all casters stand in one list, also of those
+/// that the plan left out, for which nothing proves z-pass safe.
+pub(super) fn volume_parts(
+    pass: &Pass,
+    plan: &Plan,
+    view: &View,
+    is_one_list: bool,
+) -> Vec<VolumePart> {
     let PassKind::Volumes { light } = pass.kind else {
         return Vec::new();
     };
+    let is_parallel = matches!(view.lens, Lens::Orthographic { .. });
+    let forces_z_fail = is_one_list && !is_parallel;
     let mut parts = Vec::new();
-    if pass.volumes.iter().any(|volume| volume.is_z_pass) {
+    if !forces_z_fail && pass.volumes.iter().any(|volume| volume.is_z_pass) {
         parts.push(VolumePart::ZPassSides);
     }
-    if pass.volumes.iter().any(|volume| !volume.is_z_pass) {
+    if forces_z_fail || pass.volumes.iter().any(|volume| !volume.is_z_pass) {
         parts.push(VolumePart::ZFailSides);
         parts.extend([true, false].map(|is_pos| VolumePart::LightCap { is_pos }));
         let shape = &plan.lights[light as usize].shape;
@@ -85,7 +93,8 @@ pub(super) struct Recorder<'a> {
 
 /// What is bound already, so that it is not bound again.
 #[derive(Default)]
-struct Bound {
+struct Bound<'a> {
+    shadow: Option<&'a wgpu::BindGroup>,
     pipeline: Option<PipelineKey>,
     buffers: Option<(usize, [bool; 3])>,
     texture: Option<scenegraph::scene::TextureId>,
@@ -256,10 +265,8 @@ impl Recorder<'_> {
         let mut render_pass = self.begin(encoder, "surfaces", true, depth, stencil, light);
         let mut bound = Bound::default();
         let mut report = PassReport::default();
-        if let PassKind::Light { shadow, .. } = pass.kind
-            && let Some(group) = self.shadow_group(shadow, light)
-        {
-            render_pass.set_bind_group(3, group, &[]);
+        if let PassKind::Light { shadow, .. } = pass.kind {
+            bound.shadow = self.shadow_group(shadow, light);
         }
         if let Some([x, y, width, height]) = pass.scissor {
             render_pass.set_scissor_rect(x, y, width, height);
@@ -305,7 +312,12 @@ impl Recorder<'_> {
     }
 
     /// False if there is no such pipeline.
-    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, bound: &mut Bound, key: PipelineKey) -> bool {
+    fn bind(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        bound: &mut Bound<'_>,
+        key: PipelineKey,
+    ) -> bool {
         if bound.pipeline == Some(key) {
             return true;
         }
@@ -313,6 +325,14 @@ impl Recorder<'_> {
             return false;
         };
         pass.set_pipeline(pipeline);
+        if let (Some(group), PipelineKey::Surface { shader, .. }) = (bound.shadow, key) {
+            if shader.texture.is_none() && shader.primitive == Primitive::Triangles {
+                pass.set_bind_group(2, &self.renderer.nothing, &[]);
+                bound.texture = None;
+                bound.strokes = None;
+            }
+            pass.set_bind_group(3, group, &[]);
+        }
         bound.pipeline = Some(key);
         true
     }
@@ -320,7 +340,7 @@ impl Recorder<'_> {
     fn bind_triangles(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        bound: &mut Bound,
+        bound: &mut Bound<'_>,
         draw: &frame::Draw,
         object: &Object,
         range: &TriangleRange,

@@ -69,6 +69,7 @@ pub struct Renderer {
     pub(super) geometry: Geometry,
     pub(super) textures: Textures,
     pub(super) strokes: [wgpu::BindGroup; 2],
+    pub(super) nothing: wgpu::BindGroup,
     pub(super) casters: Option<Casters>,
     pub(super) volumes: VolumeCache,
     extractor: Option<Extractor>,
@@ -102,6 +103,7 @@ impl Renderer {
                 vec![buffer.as_entire_binding()],
             )
         });
+        let nothing = binding::group(&gpu.device, "nothing", &layouts.nothing, Vec::new());
         gpu.check()?;
         Ok(Self {
             gpu,
@@ -113,6 +115,7 @@ impl Renderer {
             geometry,
             textures,
             strokes,
+            nothing,
             casters: None,
             volumes: VolumeCache::default(),
             extractor: None,
@@ -178,7 +181,7 @@ impl Renderer {
 
         let start = Instant::now();
         let before = self.pipelines.counts;
-        self.prepare_pipelines(&plan, settings);
+        self.prepare_pipelines(&plan, view, settings);
         report.pipelines = difference(self.pipelines.counts, before);
         report.compile = start.elapsed();
 
@@ -318,7 +321,7 @@ impl Renderer {
         self.computed.get(&light).map(|(_, volumes)| volumes)
     }
 
-    fn prepare_pipelines(&mut self, plan: &Plan, settings: &Settings) {
+    fn prepare_pipelines(&mut self, plan: &Plan, view: &View, settings: &Settings) {
         let samples = settings.samples;
         let mut keys = vec![PipelineKey::Present { samples }];
         if settings.background_srgb[0] != settings.background_srgb[1] {
@@ -338,7 +341,7 @@ impl Renderer {
                 continue;
             };
             let layers = self.volumes.of(light).map_or(1, |v| v.layer_count());
-            for part in volume_parts(pass, plan) {
+            for part in volume_parts(pass, plan, view, self.computed(light).is_some()) {
                 keys.push(self.volume_key(part, layers > 1, samples));
             }
             if layers > 1 {

@@ -48,7 +48,8 @@ impl Textures {
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
-                anisotropy_clamp: 8,
+                // Mesa 22's llvmpipe can loop without end over anisotropic samples.
+                anisotropy_clamp: if gpu.is_software() { 1 } else { 8 },
                 ..wgpu::SamplerDescriptor::default()
             });
             let group = binding::group(
