@@ -462,7 +462,7 @@ impl Recorder<'_> {
                 self.next_layer(&mut render_pass, self.start_of_layer(volumes, layer, pass));
             }
             let ranges = volumes.ranges(layer, &pass.volumes);
-            for part in volume_parts(pass, self.plan) {
+            for part in volume_parts(pass, self.plan, self.view, computed.is_some()) {
                 let key = self
                     .renderer
                     .volume_key(part, layers > 1, self.targets.samples);
