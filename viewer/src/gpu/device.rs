@@ -37,7 +37,8 @@ impl fmt::Display for GpuError {
 
 impl std::error::Error for GpuError {}
 
-/// A device with what was found out about it.
+/// A device with what was found out about it. Copies are the same device, and share its errors.
+#[derive(Clone)]
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,
