@@ -202,12 +202,6 @@ impl Args {
             Adapter::Software => AdapterChoice::Software,
         }
     }
-
-    /// The value of `--shadows`.
-    pub fn shadows_name(&self) -> String {
-        let value = self.shadows.to_possible_value();
-        value.map_or_else(String::new, |value| value.get_name().to_owned())
-    }
 }
 
 impl ShadowKind {

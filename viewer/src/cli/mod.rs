@@ -38,6 +38,10 @@ const DIFFERS: u8 = 1;
 /// Something was not done.
 const FAILED: u8 = 2;
 
+/// Pixels of a picture at most: with four samples each takes 68 bytes on the device, which for a
+/// software adapter is the memory of the machine.
+const MAX_PIXELS: u64 = 1 << 26;
+
 const NO_WINDOW: &str = "\
 without --output the model would be shown in a window, which comes with a later version; give \
 --output PNG, and `ivview --help` says more";
@@ -164,17 +168,16 @@ fn read(
 
 /// Whether the device can hold pictures of this size.
 fn check_size(gpu: &Gpu, (width, height): (u32, u32)) -> Result<(), String> {
-    let limits = gpu.device.limits();
-    let side = limits.max_texture_dimension_2d;
-    let what = format!("a picture of {width}x{height} is too large for this adapter");
+    let side = gpu.device.limits().max_texture_dimension_2d;
+    let what = format!("a picture of {width}x{height} is too large");
     if width > side || height > side {
-        return Err(format!("{what}: a side has at most {side} pixels"));
+        let name = messages::printable(&gpu.info.name);
+        return Err(format!(
+            "{what} for {name}: a side has at most {side} pixels"
+        ));
     }
-    // As it is read back: rows are padded to 256 bytes, four a pixel.
-    let bytes = u64::from(width.next_multiple_of(64)) * 4 * u64::from(height);
-    if bytes > limits.max_buffer_size {
-        let pixels = limits.max_buffer_size / 4;
-        return Err(format!("{what}: it has at most {pixels} pixels"));
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(format!("{what}: it has at most {MAX_PIXELS} pixels"));
     }
     Ok(())
 }

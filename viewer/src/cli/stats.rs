@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::time::Duration;
 
+use clap::ValueEnum;
 use scenegraph::scene::{Scene, Topology};
 use serde_json::{Map, Value, json};
 use viewer::content::{LightShape, WorldLight};
@@ -84,7 +85,8 @@ impl Told<'_> {
             "width": width,
             "height": height,
             "samples": settings.samples,
-            "shadows": self.args.shadows_name(),
+            "shadows": name_of(&self.args.shadows),
+            "extraction": name_of(&self.args.extraction),
             "background_srgb": settings.background_srgb,
             "has_headlight": settings.has_headlight,
         })
@@ -244,6 +246,12 @@ fn pass(pass: &Pass, report: PassReport) -> Value {
 
 fn skip(skip: &Skip) -> Value {
     json!({ "reason": skip.reason.name(), "count": skip.count })
+}
+
+/// The word for a value on the command line.
+fn name_of(value: &impl ValueEnum) -> Option<String> {
+    let value = value.to_possible_value()?;
+    Some(value.get_name().to_owned())
 }
 
 fn kind(topology: Topology) -> usize {
