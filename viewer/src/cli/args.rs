@@ -287,3 +287,41 @@ fn folder(text: &str) -> Result<PathBuf, String> {
 pub fn strip_path(output: &Path) -> PathBuf {
     output.with_extension("diff.png")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn shadows_are_those_of_the_renderer() {
+        use Extraction::{Auto, Compute, Cpu};
+        let volumes = |method, extraction| Shadows::Volumes { method, extraction };
+        let rows = [
+            ("", volumes(VolumeMethod::Silhouette, Auto)),
+            ("--extraction cpu", volumes(VolumeMethod::Silhouette, Cpu)),
+            (
+                "--shadows volumes-reference --extraction compute",
+                volumes(VolumeMethod::ReferenceEdge, Compute),
+            ),
+            (
+                "--shadows volumes-triangles",
+                volumes(VolumeMethod::PerTriangle, Auto),
+            ),
+            ("--shadows map", Shadows::Map { size: 2048 }),
+            ("--shadows map-8k", Shadows::Map { size: 8192 }),
+            ("--shadows rays", Shadows::Rays),
+            ("--shadows none", Shadows::None),
+        ];
+        for (options, shadows) in rows {
+            let words = ["ivview", "a.iv"].into_iter();
+            let args = Args::try_parse_from(words.chain(options.split_whitespace())).unwrap();
+            assert_eq!(args.settings().shadows, shadows, "{options}");
+        }
+    }
+}

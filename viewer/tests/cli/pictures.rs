@@ -103,16 +103,26 @@ fn options_change_the_picture() {
     // Two sets of options, and whether they give the same picture.
     let rows = [
         (
-            "gate_shadow.iv",
+            "gate_shadow.iv --up y",
             "--shadows volumes",
             "--shadows none",
             false,
         ),
-        ("gate_shadow.iv", "", "--shadows volumes", true),
-        ("gate_shadow.iv", "", "--shadows volumes-reference", true),
-        ("gate_shadow.iv", "", "--shadows volumes-triangles", true),
-        ("gate_shadow.iv", "", "--extraction cpu", true),
-        ("gate_shadow.iv", "--msaa 1", "--msaa 4", false),
+        ("gate_shadow.iv --up y", "", "--shadows volumes", true),
+        (
+            "gate_shadow.iv --up y",
+            "",
+            "--shadows volumes-reference",
+            true,
+        ),
+        (
+            "gate_shadow.iv --up y",
+            "",
+            "--shadows volumes-triangles",
+            true,
+        ),
+        ("gate_shadow.iv --up y", "", "--extraction cpu", true),
+        ("gate_shadow.iv --up y", "--msaa 1", "--msaa 4", false),
         ("cube.iv", "", "--no-headlight", false),
         ("cube.iv", "", "--background black", true),
         (
