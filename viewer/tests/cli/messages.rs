@@ -131,7 +131,7 @@ fn exit_codes_and_messages() {
             2,
             &["`pink` is no colour", "griseous"],
         ),
-        ("cube.iv -o x.png --background #12+456", 2, &["no colour"]),
+        ("cube.iv -o x.png --background #+12345", 2, &["no colour"]),
         ("cube.iv -o x.png --msaa 2", 2, &["it is 1 or 4"]),
         ("cube.iv -o x.png --threshold exact", 2, &["--reference"]),
         (
@@ -160,7 +160,10 @@ fn exit_codes_and_messages() {
 fn quiet_runs_print_errors_only() {
     let place = Place::new()
         .file("cube.iv", CUBE)
-        .file("comma.iv", "#Inventor V2.1 ascii\nCube { width 1, }\n")
+        .file(
+            "comma.iv",
+            "#Inventor V2.1 ascii\nTranslation { translation 1,5 2,0 3,0 } Cube { }\n",
+        )
         .file(
             "use.iv",
             "#Inventor V2.1 ascii\nSeparator { Cube { } USE Lid }\n",

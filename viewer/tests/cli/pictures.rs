@@ -76,6 +76,7 @@ fn references_are_compared_with() {
         ("moved.png --threshold 255,0,0", 0, false, "as in"),
         ("moved.png --threshold 0,100%,3072", 0, false, "as in"),
         ("moved.png --threshold 0,100,9", 1, true, "9 in a blob"),
+        ("moved.png --threshold 0,1,3072", 1, true, "1 % of the"),
         ("moved.png -q", 1, true, "a.diff.png"),
         ("faint.png", 0, false, "0 of 3072 pixels differ"),
         ("faint.png --threshold exact", 1, true, "largest step 1"),
