@@ -119,10 +119,9 @@ impl Told<'_> {
             "device": ms(times.device),
             "upload": ms(self.renderer.upload_time),
             "plan": ms(report.plan),
-            "volumes": ms(report.volumes),
-            "compile": ms(report.pipelines.time),
-            // Pipelines are made while commands are recorded.
-            "encode": ms(report.encode.saturating_sub(report.pipelines.time)),
+            "shadows": ms(report.shadows),
+            "compile": ms(report.compile),
+            "encode": ms(report.encode),
             "draw": ms(report.draw),
             "readback": ms(self.shown.readback_time),
             "png": ms(times.png),
