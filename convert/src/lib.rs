@@ -24,6 +24,7 @@ mod blocks;
 mod bounds;
 mod camera;
 mod color;
+pub mod command;
 mod container;
 mod error;
 mod extras;

@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use convert::{Pixels, TextureLoader};
-use scenegraph::scene::{Scene, TextureId, TextureSource};
+use convert::{Pixels, TextureLoader, Warning};
+use scenegraph::scene::{Scene, Texture, TextureId, TextureSource};
 
 /// The images of a scene, by texture; those that could not be had are missing.
 #[derive(Clone, Debug, Default)]
 pub struct Images {
     by_texture: Vec<Option<Pixels>>,
-    /// Why images are missing.
-    pub problems: Vec<String>,
+    /// Why images are missing; one for each name.
+    pub problems: Vec<Warning>,
 }
 
 impl Images {
@@ -47,10 +47,27 @@ impl Images {
             };
             match pixels {
                 Ok(pixels) => images.by_texture[i] = Some(pixels),
-                Err(problem) => images.problems.push(problem),
+                Err(reason) => images.miss(texture, reason),
             }
         }
         images
+    }
+
+    fn miss(&mut self, texture: &Texture, reason: String) {
+        let name = match &texture.source {
+            TextureSource::File { name, .. }
+            | TextureSource::Encoded {
+                name: Some(name), ..
+            } => name.to_string(),
+            _ => "inline image".to_owned(),
+        };
+        if !self.problems.iter().any(|known| known.name == name) {
+            self.problems.push(Warning {
+                name,
+                reason,
+                pos: texture.pos,
+            });
+        }
     }
 
     /// The image of a texture, if it is to be had.
@@ -63,5 +80,4 @@ fn load_file(loader: &dyn TextureLoader, beside: &Path, name: &str) -> Result<Pi
     loader
         .load(beside, name)
         .and_then(|bytes| Pixels::from_file(&bytes, name))
-        .map_err(|problem| format!("{name}: {problem}"))
 }

@@ -5,10 +5,11 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
+use convert::command::{atomic, model};
 use iv_parser::{Diagnostic, Dialect, Encoding, Problem, Severity, Source, SourcePos, Span, Tree};
 use scenegraph::RegistryLayout;
 
-use super::{atomic, model, references};
+use super::references;
 
 /// A text and what is wrong with it.
 pub struct Text<'a> {

@@ -1,18 +1,22 @@
 //! One input to one output. Prints nothing: all there is to say is in the [`Outcome`].
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use convert::{Container, Loss, Options, Report, Warning};
+use convert::command::messages::{file_of, image_left_out};
+use convert::command::{atomic, bytes, model};
+use convert::{Container, Loss, Options, Report};
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use scenegraph::{FileLoader, ResolveOptions, Resolved};
 use serde_json::{Value, json};
 
 use super::args::{Args, Format};
 use super::inputs::Input;
-use super::{atomic, bytes, inventor, model};
+use super::inventor;
+
+/// Why an input of a format that is not read failed; its diagnostic says which format it is.
+pub const UNSUPPORTED: &str = "not converted: its format is not read";
 
 /// What is the same for all inputs.
 #[derive(Clone, Debug)]
@@ -120,9 +124,9 @@ fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
     let text = inventor::Text::of(&bytes, &name);
     outcome.diagnostics.clone_from(&text.diagnostics);
     if text.is_unsupported() {
-        return Err(model::UNSUPPORTED.to_owned());
+        return Err(UNSUPPORTED.to_owned());
     }
-    make_folder_of(path)?;
+    atomic::make_folder_of(path)?;
     outcome.bytes_out = text
         .write(path)
         .map_err(|error| atomic::cannot_write(path, &error))?;
@@ -135,7 +139,7 @@ fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
 fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<(), String> {
     let files = model::file_loader(&outcome.input, &settings.search);
     let scene = resolved(outcome, &files)?.scene;
-    make_folder_of(path)?;
+    atomic::make_folder_of(path)?;
     let images = model::Images(&files);
     let report = convert::write_file(&scene, &settings.options, &images, path)
         .map_err(|error| words(&error))?;
@@ -144,16 +148,12 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     if scene.instances.is_empty() {
         outcome.warnings.push(no_geometry(&outcome.input));
     }
-    let name_of = |pos: SourcePos| {
-        let name = scene.files.get(pos.file as usize);
-        name.cloned().unwrap_or_else(|| "".into())
-    };
     let left_out = report.warnings.into_iter();
     outcome
         .warnings
-        .extend(left_out.map(|warning| image_left_out(warning, &name_of)));
+        .extend(left_out.map(|warning| image_left_out(warning, &scene)));
     let losses = report.losses.into_iter().map(|loss| NamedLoss {
-        file: name_of(loss.pos),
+        file: file_of(&scene, loss.pos),
         loss,
     });
     outcome.losses.extend(losses);
@@ -169,7 +169,7 @@ fn resolved(outcome: &mut Outcome, files: &FileLoader) -> Result<Resolved, Strin
     drop(bytes);
     outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
     if model::is_unsupported(&outcome.diagnostics) {
-        return Err(model::UNSUPPORTED.to_owned());
+        return Err(UNSUPPORTED.to_owned());
     }
     let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
     outcome.diagnostics.append(&mut resolved.diagnostics);
@@ -187,12 +187,6 @@ fn words(error: &convert::Error) -> String {
         }
         other => other.to_string(),
     }
-}
-
-fn make_folder_of(path: &Path) -> Result<(), String> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    fs::create_dir_all(folder)
-        .map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))
 }
 
 fn counts(report: &Report, instances: usize) -> Value {
@@ -217,18 +211,6 @@ fn no_geometry(input: &Path) -> Diagnostic {
         hint: "the output holds no meshes".to_owned(),
         file: input.display().to_string().into(),
         pos: SourcePos::default(),
-        snippet: None,
-    }
-}
-
-fn image_left_out(warning: Warning, name_of: &impl Fn(SourcePos) -> Arc<str>) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Warning,
-        code: "image",
-        message: format!("`{}` is left out: {}", warning.name, warning.reason),
-        hint: "images are looked for beside the model and in the --search folders".to_owned(),
-        file: name_of(warning.pos),
-        pos: warning.pos,
         snippet: None,
     }
 }

@@ -6,15 +6,11 @@
 //! Exit codes: 0 done, 1 done but not everything came over (with `--strict`), 2 something failed.
 
 mod args;
-mod atomic;
-mod bytes;
 mod info;
 mod inputs;
 mod inventor;
 mod job;
-mod json;
 mod messages;
-mod model;
 mod plan;
 mod pool;
 mod references;
@@ -26,10 +22,12 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Parser;
+use convert::command::messages::{error, error_line};
+use convert::command::{atomic, json};
 
 use args::Args;
 use inputs::Input;
-use messages::{Style, Totals};
+use messages::Totals;
 use pool::Event;
 use screen::Screen;
 
@@ -51,7 +49,7 @@ pub fn run() -> ExitCode {
     };
     let code = outcome.unwrap_or_else(|why| {
         // The arguments are well formed, so how they are written is not explained again.
-        Screen::new(0, true).message(&messages::error(&why));
+        Screen::new(0, true).message(&error(&why));
         FAILED
     });
     ExitCode::from(code)
@@ -64,7 +62,7 @@ fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>]) -> u8 {
     let mut screen = Screen::new(inputs.len(), args.quiet);
     let mut totals = Totals::default();
     let mut report = args.report.as_ref().map(|_| report::Report::new(args));
-    let style = Style::of(args);
+    let style = messages::style(args);
     pool::run(
         inputs.len(),
         args.jobs(),
@@ -89,7 +87,7 @@ fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>]) -> u8 {
     });
     if let Some(Err(why)) = written {
         totals.report_failed = true;
-        screen.message(&messages::error_line("--report", &why));
+        screen.message(&error_line("--report", &why));
     }
     screen.finish();
     let code = totals.exit_code(args.strict);
@@ -105,7 +103,7 @@ fn show(args: &Args, inputs: &[Input]) -> u8 {
     let mut screen = Screen::new(inputs.len(), args.quiet);
     let mut documents = Vec::new();
     let mut failed = false;
-    let style = Style::of(args);
+    let style = messages::style(args);
     pool::run(
         inputs.len(),
         args.jobs(),

@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
+use convert::command::json::{diagnostics, place};
 use serde_json::{Value, json};
 
 use super::args::Args;
 use super::job::{NamedLoss, Outcome};
-use super::json::{diagnostics, place};
 use super::messages::Totals;
 
 /// A report being gathered.

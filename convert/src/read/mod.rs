@@ -48,6 +48,9 @@ pub struct Model {
     pub scene: Scene,
     /// What was left out.
     pub warnings: Vec<String>,
+    /// Written by [`write_glb`](crate::write_glb) or its kin, with extras: up is as it was in the
+    /// Inventor model. glTF of others has +Y up.
+    pub is_from_inventor: bool,
 }
 
 /// Reads a `.glb`, or the text of a `.gltf`. `name` is what the file is called; buffers in files of
@@ -106,7 +109,11 @@ pub fn read_gltf(
         files: vec![name.into()],
     };
     debug_assert_eq!(scene.check(), Vec::new());
-    Ok(Model { scene, warnings })
+    Ok(Model {
+        scene,
+        warnings,
+        is_from_inventor: by_ivory,
+    })
 }
 
 /// What of the file is shown: its scene, or if it has none, all nodes.

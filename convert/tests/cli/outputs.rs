@@ -121,7 +121,11 @@ fn an_error_names_the_output_and_no_temporary_file() {
             "{args}: {}",
             run.err
         );
-        assert!(!run.err.contains(".ivconvert-"), "{args}: {}", run.err);
+        assert!(
+            !run.err.contains(".ivory-") && !run.err.contains(".ivconvert-"),
+            "{args}: {}",
+            run.err
+        );
     }
 }
 

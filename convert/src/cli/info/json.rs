@@ -1,11 +1,11 @@
 //! `--info --json`: one object for each input.
 
+use convert::command::json::diagnostics;
 use geometry::bounds::Aabb;
 use serde_json::{Value, json};
 
 use super::measure::Amount;
 use super::{Content, Info, TextureKind, format_name};
-use crate::cli::json::diagnostics;
 
 /// The object of one input; `content` is null if it could not be read.
 pub fn document(info: &Info) -> Value {

@@ -6,11 +6,11 @@ pub mod table;
 
 use std::path::{Path, PathBuf};
 
+use convert::command::{bytes, model};
 use iv_parser::{Diagnostic, Dialect, Encoding, Header};
 use scenegraph::{Geometry, ResolveOptions};
 
 use super::inputs::Input;
-use super::{bytes, model};
 
 pub use measure::{Content, TextureKind};
 

@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
+use convert::command::messages::{number, printable};
 use geometry::bounds::Aabb;
 use glam::DVec3;
 use iv_parser::Severity;
 
 use super::measure::Amount;
 use super::{Content, Info, TextureKind, format_name};
-use crate::cli::messages::{number, printable};
 
 /// Significant digits of the largest extent that coordinates are shown with.
 const DIGITS: i32 = 6;

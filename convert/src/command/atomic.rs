@@ -1,4 +1,4 @@
-//! Files that appear whole or not at all, for what the library does not write itself.
+//! Files that appear whole or not at all, for what is not written by [`write_file`](crate::write_file).
 
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -24,7 +24,7 @@ pub fn write(
         _ => Path::new("."),
     };
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".ivconvert-");
+    builder.prefix(".ivory-");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -47,6 +47,17 @@ pub fn write(
 pub fn write_json(path: &Path, document: &Value) -> Result<u64, String> {
     let text = json::text(document);
     write(path, |out| out.write_all(text.as_bytes())).map_err(|error| cannot_write(path, &error))
+}
+
+/// Makes the folder of an output.
+///
+/// # Errors
+///
+/// In words with the path.
+pub fn make_folder_of(path: &Path) -> Result<(), String> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    std::fs::create_dir_all(folder)
+        .map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))
 }
 
 /// An output that could not be written.

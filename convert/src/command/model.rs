@@ -1,4 +1,4 @@
-//! One input: its graph, and whether its format can be read at all.
+//! One input of Inventor text: its graph, and whether its format can be read at all.
 
 use std::path::{Path, PathBuf};
 
@@ -14,15 +14,17 @@ pub fn file_loader(path: &Path, search: &[PathBuf]) -> FileLoader {
 /// The graph of a model with all it includes.
 pub fn graph(bytes: &[u8], path: &Path, files: &FileLoader) -> Graph {
     let name = path.display().to_string();
-    let folder = folder_of(path);
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
+    scenegraph::load(bytes, &name, &canonical_folder_of(path), files)
+}
+
+/// The folder that a file is in, canonical where it exists, so that a file that includes itself is
+/// known again.
+pub fn canonical_folder_of(path: &Path) -> PathBuf {
+    let folder = match folder_of(path) {
+        folder if folder.as_os_str().is_empty() => Path::new("."),
+        folder => folder,
     };
-    // Canonical, so that a file that includes itself is known again.
-    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-    scenegraph::load(bytes, &name, &folder, files)
+    folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 
 /// Whether the input itself, not a file it includes, is of a format that is not read.
@@ -32,9 +34,6 @@ pub fn is_unsupported(diagnostics: &[Diagnostic]) -> bool {
         .any(|d| d.code == "unsupported-format" && d.pos.file == 0)
 }
 
-/// Why an input of such a format failed; its diagnostic says which format it is.
-pub const UNSUPPORTED: &str = "not converted: its format is not read";
-
 /// The folder that a file is named in; empty for the current one.
 pub fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
@@ -43,7 +42,7 @@ pub fn folder_of(path: &Path) -> &Path {
 /// Images by way of the graph's own loader.
 pub struct Images<'a>(pub &'a FileLoader);
 
-impl convert::TextureLoader for Images<'_> {
+impl crate::TextureLoader for Images<'_> {
     fn load(&self, beside: &Path, name: &str) -> Result<Vec<u8>, String> {
         match self.0.load(beside, name) {
             Ok(loaded) => Ok(loaded.bytes),

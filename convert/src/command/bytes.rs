@@ -18,7 +18,7 @@ const MAX_BYTES: u64 = 1 << 32;
 /// Inputs at least this long get pages of their own: two large ones.
 const LONG_BYTES: usize = 4 << 20;
 
-/// The bytes of an input.
+/// The bytes of a file; dereferences to them.
 pub enum Bytes {
     /// In pages of their own, of which the first so many bytes count.
     Pages(MmapMut, usize),

@@ -1,4 +1,4 @@
-//! JSON of what both the report and `--info` show: objects have their keys in sorted order, and
+//! JSON as the commands write it: objects have their keys in sorted order, and
 //! nothing in them depends on time or machine.
 
 use iv_parser::{Diagnostic, SourcePos};
