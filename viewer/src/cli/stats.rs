@@ -208,7 +208,7 @@ impl Told<'_> {
 
     fn device_bytes(&self) -> Value {
         let bytes = self.renderer.bytes();
-        let names = ["meshes", "textures", "casters", "images"];
+        let names = ["meshes", "textures", "casters", "shadows", "images"];
         let named = names.iter().zip(bytes);
         let mut document: Map<String, Value> = named
             .map(|(name, bytes)| ((*name).to_owned(), json!(bytes)))

@@ -132,12 +132,15 @@ impl Renderer {
         &self.content
     }
 
-    /// Bytes on the device: meshes, textures, casters, images of the frame.
-    pub fn bytes(&self) -> [u64; 4] {
+    /// Bytes on the device: meshes, textures, casters, shadows of lights, images of the frame.
+    pub fn bytes(&self) -> [u64; 5] {
+        let maps: u64 = self.maps.values().map(ShadowMap::bytes).sum();
+        let rays = self.rays.as_ref().map_or(0, Rays::bytes);
         [
             self.geometry.bytes,
             self.textures.bytes,
             self.casters.as_ref().map_or(0, |casters| casters.bytes),
+            self.volumes.bytes() + maps + rays,
             self.targets.as_ref().map_or(0, |targets| targets.bytes),
         ]
     }

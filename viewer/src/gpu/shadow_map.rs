@@ -16,8 +16,8 @@ pub struct ShadowMap {
     pub view_group: wgpu::BindGroup,
     /// Group 3 while shading.
     pub group: wgpu::BindGroup,
-    /// Texels.
-    pub size: u32,
+    /// Texels along a side.
+    size: u32,
 }
 
 /// Distance between the matrices of two faces in their buffer.
@@ -27,6 +27,11 @@ pub const VIEW_STRIDE: u32 = 256;
 const MAX_CUBE_SIZE: u32 = 4096;
 
 impl ShadowMap {
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        4 * u64::from(self.size) * u64::from(self.size) * self.faces.len() as u64
+    }
+
     /// Makes the textures and matrices of a light.
     pub fn new(
         gpu: &Gpu,

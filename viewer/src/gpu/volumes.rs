@@ -159,10 +159,8 @@ pub struct LightVolumes {
     signs: Vec<Vec<Signs>>,
     /// Group 2.
     pub group: wgpu::BindGroup,
-    /// Side quads.
-    pub side_count: u32,
-    /// Triangles of caps at the light's end.
-    pub cap_count: u32,
+    /// On the device.
+    bytes: u64,
 }
 
 /// The draws of a volume pass: ranges of entries.
@@ -210,6 +208,11 @@ impl VolumeCache {
         let made = make(gpu, layouts, content, casters, light, method);
         self.lights.insert(index, made);
         self.made += 1;
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.lights.values().map(|volumes| volumes.bytes).sum()
     }
 
     /// The volumes of a light.
@@ -422,9 +425,9 @@ fn make(
             Some(maker.piece(index, Cow::Borrowed(mesh), *base))
         })
         .collect();
-    let mut layers = vec![0..pieces.len()];
+    let whole = 0..pieces.len();
+    let mut layers = vec![whole];
     let mut own_buffers = None;
-    // A triangle of its own cancels nothing: its sides are up and down at once.
     if maker.bound(&pieces, MAX_LAYERS) > MAX_LAYERS {
         pieces = maker.cut(pieces);
         let mut arrays = Arrays::default();
@@ -446,7 +449,6 @@ fn make(
                 .collect()
         })
         .collect();
-    let (side_count, cap_count) = entries.counts();
     for part in parts.iter_mut().flatten() {
         entries.place(part);
     }
@@ -475,8 +477,7 @@ fn make(
         layers: parts,
         signs,
         group,
-        side_count,
-        cap_count,
+        bytes: entries.size(),
     }
 }
 
@@ -513,11 +514,6 @@ impl Entries {
             cap_pos: push(&mut self.cap_pos, &piece.volume.cap_pos, triangle),
             cap_neg: push(&mut self.cap_neg, &piece.volume.cap_neg, triangle),
         }
-    }
-
-    fn counts(&self) -> (u32, u32) {
-        let caps = self.cap_pos.len() + self.cap_neg.len();
-        (self.sides.len() as u32, caps as u32)
     }
 
     /// Moves ranges to where their list will be.
