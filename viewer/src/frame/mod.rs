@@ -3,9 +3,13 @@
 //! Pure: what is here can be read by tests without a device. `gpu` encodes it.
 
 mod cull;
+mod lists;
 mod plan;
+mod planner;
+mod scissor;
 mod settings;
 
 pub use cull::Frustum;
-pub use plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason, VolumeDraw, plan};
+pub use plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason, VolumeDraw};
+pub use planner::plan;
 pub use settings::{Extraction, Settings, Shadows, VolumeMethod};

@@ -268,9 +268,7 @@ impl Recorder<'_> {
         if let PassKind::Light { shadow, .. } = pass.kind {
             bound.shadow = self.shadow_group(shadow, light);
         }
-        if let Some([x, y, width, height]) = pass.scissor {
-            render_pass.set_scissor_rect(x, y, width, height);
-        }
+        cut(&mut render_pass, pass.scissor);
         for draw in &pass.draws {
             let object = &self.renderer.content.objects[draw.objects.start as usize];
             let Some(range) = self.renderer.geometry.range(object.mesh) else {
@@ -454,6 +452,7 @@ impl Recorder<'_> {
             store: wgpu::StoreOp::Store,
         });
         let mut render_pass = self.begin(encoder, "volumes", false, None, stencil, light);
+        cut(&mut render_pass, pass.scissor);
         let computed = self.renderer.computed(light);
         let group = computed.map_or(&volumes.group, |computed| &computed.group);
         render_pass.set_bind_group(2, group, &[]);
@@ -518,6 +517,13 @@ impl Recorder<'_> {
             }
         }
         pass.set_stencil_reference(0);
+    }
+}
+
+/// Leaves pixels outside of a rectangle alone.
+fn cut(pass: &mut wgpu::RenderPass<'_>, rectangle: Option<[u32; 4]>) {
+    if let Some([x, y, width, height]) = rectangle {
+        pass.set_scissor_rect(x, y, width, height);
     }
 }
 

@@ -32,6 +32,12 @@ impl Region {
         }
     }
 
+    /// Left, top, width, height.
+    #[must_use]
+    pub fn rectangle(&self) -> [u32; 4] {
+        [self.x, self.y, self.width, self.height]
+    }
+
     /// The largest rectangle of this aspect ratio in the middle of the image, as
     /// `SoCamera::getViewportBounds` makes it: one side is that of the image, the other is rounded
     /// to whole pixels, at least 1.

@@ -1,0 +1,355 @@
+//! From a scene and a view to the passes of a frame, leaving out what the view does not need.
+//!
+//! Pass 1 draws emission, ambient light and one light that needs no stencil, if there is one. Each
+//! further light is a pass that adds, behind a pass that makes its shadows. Transparent objects
+//! come last, each with all its lights at once.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::cull::{self, Frustum};
+use super::lists::{Counts, Draws};
+use super::plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason, VolumeDraw};
+use super::scissor::scissor;
+use super::settings::{Settings, Shadows};
+use crate::content::{Content, LightShape, Object, WorldLight};
+use crate::shader::{Contribution, LightKey, ShaderKey, ShadowLookup};
+use crate::view::{Lens, Region, View};
+use crate::volume::{volume_may_touch, zpass_is_safe};
+
+struct Planner<'a> {
+    content: &'a Content,
+    view: &'a View,
+    region: &'a Region,
+    settings: &'a Settings,
+    near: f64,
+    frustum: Frustum,
+    is_visible: Vec<bool>,
+    lights: Vec<WorldLight>,
+    headlight: Option<u32>,
+}
+
+/// Plans a frame. `near` is the distance of the near plane of a perspective.
+pub fn plan(
+    content: &Content,
+    view: &View,
+    region: &Region,
+    near: f64,
+    settings: &Settings,
+) -> Plan {
+    let frustum = Frustum::new(view, region.aspect);
+    let mut lights = content.lights.clone();
+    let headlight = (lights.is_empty() && settings.has_headlight).then(|| {
+        lights.push(headlight(view));
+        0
+    });
+    let planner = Planner {
+        content,
+        view,
+        region,
+        settings,
+        near,
+        is_visible: content
+            .objects
+            .iter()
+            .map(|object| frustum.may_see(&object.bounds))
+            .collect(),
+        frustum,
+        lights,
+        headlight,
+    };
+    planner.plan()
+}
+
+/// What shines when nothing else does: along the view, without shadows.
+fn headlight(view: &View) -> WorldLight {
+    WorldLight {
+        name: None,
+        shape: LightShape::Directional {
+            towards: -view.forward(),
+        },
+        color_srgb: [1.0; 3],
+        attenuation: None,
+        casts_shadows: false,
+    }
+}
+
+/// A light that a pass is needed for.
+struct Needed {
+    light: u32,
+    scissor: Option<[u32; 4]>,
+    volumes: Vec<VolumeDraw>,
+    casts: bool,
+    skipped: Vec<Skip>,
+}
+
+impl Planner<'_> {
+    fn plan(self) -> Plan {
+        let mut skipped_lights = Vec::new();
+        let mut needed = Vec::new();
+        for light in 0..self.lights.len() as u32 {
+            match self.needs(light) {
+                Ok(need) => needed.push(need),
+                Err(reason) => skipped_lights.push((light, reason)),
+            }
+        }
+        let combined = needed.iter().position(|need| !need.casts);
+        let combined = combined.map(|at| needed.remove(at).light);
+        let mut passes = vec![self.first(combined)];
+        for need in needed {
+            self.light_passes(need, &mut passes);
+        }
+        passes.extend(self.transparent());
+        passes.retain(|pass| !pass.draws.is_empty() || !pass.volumes.is_empty());
+        Plan {
+            passes,
+            lights: self.lights,
+            skipped_lights,
+        }
+    }
+
+    fn opaque(&self) -> Range<u32> {
+        0..self.content.opaque_count() as u32
+    }
+
+    fn object(&self, index: u32) -> &Object {
+        &self.content.objects[index as usize]
+    }
+
+    fn is_in_scope(&self, light: u32, object: &Object) -> bool {
+        self.headlight == Some(light)
+            || self.content.light_sets[object.light_set as usize]
+                .binary_search(&light)
+                .is_ok()
+    }
+
+    /// Why an object is not in the pass of a light.
+    fn unlit_reason(&self, light: u32, index: u32) -> Option<SkipReason> {
+        let object = self.object(index);
+        if !self.is_visible[index as usize] {
+            Some(SkipReason::OutOfView)
+        } else if !object.look.is_lit {
+            Some(SkipReason::Unlit)
+        } else if !self.is_in_scope(light, object) {
+            Some(SkipReason::OutOfScope)
+        } else if !cull::may_light(&self.lights[light as usize], &object.bounds) {
+            Some(SkipReason::OutOfReach)
+        } else {
+            None
+        }
+    }
+
+    fn needs(&self, light: u32) -> Result<Needed, SkipReason> {
+        let world_light = &self.lights[light as usize];
+        if world_light.is_black() {
+            return Err(SkipReason::BlackLight);
+        }
+        if !self.opaque().any(|i| self.unlit_reason(light, i).is_none()) {
+            return Err(SkipReason::LightReachesNothing);
+        }
+        let (volumes, skipped) = match self.settings.shadows {
+            Shadows::None => (Vec::new(), Vec::new()),
+            _ if !world_light.casts_shadows => (Vec::new(), Vec::new()),
+            _ => self.volumes(world_light),
+        };
+        let reach = world_light.reach();
+        let scissor = match world_light.p_in_world() {
+            Some(p_in_world) if reach.is_finite() => {
+                scissor(self.view, self.region, p_in_world, reach)
+            }
+            _ => Some(self.region.rectangle()),
+        };
+        let Some(rectangle) = scissor else {
+            return Err(SkipReason::LightReachesNothing);
+        };
+        Ok(Needed {
+            light,
+            scissor: (rectangle != self.region.rectangle()).then_some(rectangle),
+            casts: !volumes.is_empty(),
+            volumes,
+            skipped,
+        })
+    }
+
+    /// The casters whose shadows may be seen.
+    fn volumes(&self, light: &WorldLight) -> (Vec<VolumeDraw>, Vec<Skip>) {
+        let planes = self.frustum.planes_in_world();
+        let light_in_world = match light.shape {
+            LightShape::Directional { towards } => towards.extend(0.0),
+            LightShape::Point { p_in_world } | LightShape::Spot { p_in_world, .. } => {
+                p_in_world.extend(1.0)
+            }
+        };
+        let near_corners = self.near_corners();
+        let mut volumes = Vec::new();
+        let mut counts = Counts::default();
+        for index in self.opaque() {
+            let object = self.object(index);
+            if !object.is_caster() {
+                continue;
+            }
+            if !cull::may_light(light, &object.bounds) {
+                counts.add(SkipReason::CasterOutOfReach);
+                continue;
+            }
+            if !volume_may_touch(&object.bounds, light_in_world, &planes) {
+                counts.add(SkipReason::ShadowOutOfView);
+                continue;
+            }
+            let is_z_pass = match near_corners {
+                // A parallel projection has its eye at infinity, where z-fail has no end to
+                // count to.
+                None => true,
+                Some(corners) => {
+                    self.settings.allows_z_pass
+                        && zpass_is_safe(&object.bounds, self.view.eye, corners, light_in_world)
+                }
+            };
+            if is_z_pass {
+                counts.add(SkipReason::CapsNotNeeded);
+            }
+            volumes.push(VolumeDraw {
+                object: index,
+                is_z_pass,
+            });
+        }
+        (volumes, counts.list())
+    }
+
+    /// Corners of the near rectangle; `None` for a parallel projection.
+    fn near_corners(&self) -> Option<[DVec3; 4]> {
+        let Lens::Perspective { tan_half_height } = self.view.lens else {
+            return None;
+        };
+        let up = self.view.up() * tan_half_height * self.near;
+        let right = self.view.right() * tan_half_height * self.region.aspect * self.near;
+        let center = self.view.eye + self.view.forward() * self.near;
+        Some([
+            center - right - up,
+            center + right - up,
+            center + right + up,
+            center - right + up,
+        ])
+    }
+
+    fn is_parallel(&self) -> bool {
+        matches!(self.view.lens, Lens::Orthographic { .. })
+    }
+
+    fn first(&self, light: Option<u32>) -> Pass {
+        let mut draws = Draws::default();
+        let mut counts = Counts::default();
+        for index in self.opaque() {
+            let object = self.object(index);
+            if !self.is_visible[index as usize] {
+                counts.add(SkipReason::OutOfView);
+                continue;
+            }
+            let key = light
+                .filter(|&light| self.unlit_reason(light, index).is_none())
+                .map(|light| LightKey::of(&self.lights[light as usize], ShadowLookup::None));
+            draws.add(
+                index,
+                object,
+                ShaderKey::new(&object.look, Contribution::First(key), self.is_parallel()),
+            );
+        }
+        Pass {
+            kind: PassKind::First { light },
+            draws: draws.list,
+            volumes: Vec::new(),
+            scissor: None,
+            skipped: counts.list(),
+        }
+    }
+
+    fn light_passes(&self, need: Needed, passes: &mut Vec<Pass>) {
+        let light = need.light;
+        let world_light = &self.lights[light as usize];
+        let is_directional = matches!(world_light.shape, LightShape::Directional { .. });
+        let (shadow_pass, shadow) = match self.settings.shadows {
+            _ if !need.casts => (None, ShadowLookup::None),
+            Shadows::None => (None, ShadowLookup::None),
+            Shadows::Volumes { .. } => (Some(PassKind::Volumes { light }), ShadowLookup::None),
+            Shadows::Map { .. } if is_directional => {
+                (Some(PassKind::Map { light }), ShadowLookup::Map)
+            }
+            Shadows::Map { .. } => (Some(PassKind::Map { light }), ShadowLookup::CubeMap),
+            Shadows::Rays => (Some(PassKind::Rays { light }), ShadowLookup::Mask),
+        };
+        let mut draws = Draws::default();
+        let mut counts = Counts::default();
+        for index in self.opaque() {
+            if let Some(reason) = self.unlit_reason(light, index) {
+                counts.add(reason);
+                continue;
+            }
+            let object = self.object(index);
+            let key = LightKey::of(world_light, shadow);
+            draws.add(
+                index,
+                object,
+                ShaderKey::new(&object.look, Contribution::Light(key), self.is_parallel()),
+            );
+        }
+        let tests_stencil = matches!(shadow_pass, Some(PassKind::Volumes { .. }));
+        if let Some(kind) = shadow_pass {
+            passes.push(Pass {
+                kind,
+                draws: Vec::new(),
+                volumes: need.volumes,
+                scissor: need.scissor,
+                skipped: need.skipped,
+            });
+        }
+        passes.push(Pass {
+            kind: PassKind::Light {
+                light,
+                shadow,
+                tests_stencil,
+            },
+            draws: draws.list,
+            volumes: Vec::new(),
+            scissor: need.scissor,
+            skipped: counts.list(),
+        });
+    }
+
+    fn transparent(&self) -> Option<Pass> {
+        let first = self.content.opaque_count() as u32;
+        let mut counts = Counts::default();
+        let mut visible: Vec<(f64, u32)> = Vec::new();
+        for index in first..self.content.objects.len() as u32 {
+            if self.is_visible[index as usize] {
+                let center = self.object(index).bounds.center();
+                visible.push((self.view.forward().dot(center - self.view.eye), index));
+            } else {
+                counts.add(SkipReason::OutOfView);
+            }
+        }
+        // Farthest first; equal distances in the order of the scene.
+        visible.sort_by(|a, b| {
+            b.0.total_cmp(&a.0)
+                .then(self.object(a.1).instance.cmp(&self.object(b.1).instance))
+        });
+        let draws: Vec<Draw> = visible
+            .into_iter()
+            .map(|(_, index)| Draw {
+                objects: index..index + 1,
+                shader: ShaderKey::new(
+                    &self.object(index).look,
+                    Contribution::All,
+                    self.is_parallel(),
+                ),
+            })
+            .collect();
+        (!draws.is_empty()).then(|| Pass {
+            kind: PassKind::Transparent,
+            draws,
+            volumes: Vec::new(),
+            scissor: None,
+            skipped: counts.list(),
+        })
+    }
+}
