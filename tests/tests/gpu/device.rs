@@ -15,9 +15,10 @@ use viewer::view::{Lens, Region, View};
 /// A device, or the words on what to install. Drawing takes all processors, so one test draws at a
 /// time.
 static DEVICE: LazyLock<Mutex<Result<Gpu, String>>> = LazyLock::new(|| {
-    Mutex::new(Gpu::new(AdapterChoice::Software).map_err(|error| {
-        format!("these tests need a software adapter (lavapipe); {error}")
-    }))
+    Mutex::new(
+        Gpu::new(AdapterChoice::Software)
+            .map_err(|error| format!("these tests need a software adapter (lavapipe); {error}")),
+    )
 });
 
 /// A scene on the device.
@@ -43,20 +44,30 @@ impl Stage {
 
     /// Uploads a scene and its textures.
     pub fn with_images(scene: Scene, loader: &dyn TextureLoader) -> Self {
-        let gpu = match &*DEVICE.lock().expect("a test panicked while it made the device") {
+        let gpu = match &*DEVICE
+            .lock()
+            .expect("a test panicked while it made the device")
+        {
             Ok(gpu) => gpu.clone(),
             Err(words) => panic!("{words}"),
         };
         let images = Images::load(&scene, loader);
-        assert_eq!(images.problems, Vec::<String>::new());
+        assert_eq!(images.problems, Vec::new());
         let renderer = Renderer::new(gpu, Arc::new(scene), &images).expect("uploads");
         Self { renderer }
     }
 
     /// Draws a picture.
-    pub fn shoot(&mut self, camera: &RefCamera, [width, height]: [u32; 2], settings: &Settings) -> Shot {
+    pub fn shoot(
+        &mut self,
+        camera: &RefCamera,
+        [width, height]: [u32; 2],
+        settings: &Settings,
+    ) -> Shot {
         let region = Region::whole(width, height);
-        let drawn = self.renderer.draw(&view_of(camera), &region, (width, height), settings);
+        let drawn = self
+            .renderer
+            .draw(&view_of(camera), &region, (width, height), settings);
         let (plan, report) = drawn.expect("draws");
         let rgba = self.renderer.read().expect("reads");
         assert_eq!(rgba.len(), width as usize * height as usize * 4);

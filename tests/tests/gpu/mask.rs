@@ -86,7 +86,12 @@ pub fn expected(reference: &RefImage, light: usize) -> Vec<Seen> {
     let pixel = |(object, lit): (&Option<u32>, &u128)| {
         Seen(object.map(|object| (object as u8, lit >> light & 1 == 1)))
     };
-    reference.object.iter().zip(&reference.lit).map(pixel).collect()
+    reference
+        .object
+        .iter()
+        .zip(&reference.lit)
+        .map(pixel)
+        .collect()
 }
 
 /// White, of full strength everywhere.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use tests::reference::{RefCamera, RefImage, RefOptions, Reference};
+use tests::reference::{RefImage, RefOptions, Reference};
 use tests::shadow_scenes::{self, ShadowScene, scene_of};
 use viewer::frame::Settings;
 
@@ -48,7 +48,11 @@ impl Figures {
 }
 
 /// Compares pictures of all lights and cameras; the lines of those that are wrong, and all lines.
-fn judge(scene: &ShadowScene, size: impl Fn(usize) -> [u32; 2], settings: &Settings) -> [String; 2] {
+fn judge(
+    scene: &ShadowScene,
+    size: impl Fn(usize) -> [u32; 2],
+    settings: &Settings,
+) -> [String; 2] {
     let resolved = scene_of(&scene.text);
     let options = RefOptions::of(&resolved);
     let reference = Reference::new(&resolved, &options);
@@ -69,7 +73,12 @@ fn judge(scene: &ShadowScene, size: impl Fn(usize) -> [u32; 2], settings: &Setti
             lines[1].push_str(&line);
             if !figures.is_right() {
                 lines[0].push_str(&line);
-                save(&format!("{}_{name}_{light}", scene.name), &shot.rgba, truth, light);
+                save(
+                    &format!("{}_{name}_{light}", scene.name),
+                    &shot.rgba,
+                    truth,
+                    light,
+                );
             }
         }
     }
@@ -87,7 +96,11 @@ fn save(name: &str, rgba: &[u8], truth: &RefImage, light: usize) {
         strip.put_pixel(x, y, image::Rgb([rgba[at], rgba[at + 1], rgba[at + 2]]));
         let byte = |n: u8| n & 15 << 4 | 8;
         let color = expected.0.map_or([128, 0, 0], |(object, lit)| {
-            [255 * u8::from(lit), (object & 15) << 4 | 8, object & 0xf0 | 8]
+            [
+                255 * u8::from(lit),
+                (object & 15) << 4 | 8,
+                object & 0xf0 | 8,
+            ]
         });
         let _ = byte;
         strip.put_pixel(x + width, y, image::Rgb(color));
