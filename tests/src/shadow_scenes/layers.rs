@@ -63,14 +63,19 @@ fn shells(name: &'static str, open: bool) -> ShadowScene {
     });
     text.colored([0.9, 0.8, 0.4], &shells);
     let inside = DVec3::new(0.2, 1.4, 0.1);
+    // The rims of open shells are thinner than a pixel: they are seen from inside only.
+    let side = if open { -1.0 } else { 1.0 };
     ShadowScene {
         name,
         text: text.finish(),
         cameras: vec![
-            ("over", over()),
+            (
+                "over",
+                perspective(DVec3::new(side * 2.0, 4.5, 1.5), DVec3::Y, 0.7),
+            ),
             (
                 "side",
-                perspective(DVec3::new(4.0, 2.2, 1.0), DVec3::Y, 0.6),
+                perspective(DVec3::new(side * 4.0, 2.2, 1.0), DVec3::Y, 0.6),
             ),
             (
                 "inside",

@@ -84,6 +84,14 @@ struct Needed {
     skipped: Vec<Skip>,
 }
 
+/// How a view looks along a light.
+enum Along {
+    /// The way it shines: nothing seen is in shadow.
+    WithLight,
+    /// Towards it: everything seen has its own back to the light.
+    AgainstLight,
+}
+
 impl Planner<'_> {
     fn plan(self) -> Plan {
         let mut skipped_lights = Vec::new();
@@ -151,7 +159,12 @@ impl Planner<'_> {
         let (volumes, skipped) = match self.settings.shadows {
             Shadows::None => (Vec::new(), Vec::new()),
             _ if !world_light.casts_shadows => (Vec::new(), Vec::new()),
-            _ => self.volumes(world_light),
+            _ => match self.along(world_light) {
+                // What is seen is what the light meets first.
+                Some(Along::WithLight) => (Vec::new(), Vec::new()),
+                Some(Along::AgainstLight) => return Err(SkipReason::LightReachesNothing),
+                None => self.volumes(world_light),
+            },
         };
         let reach = world_light.reach();
         let scissor = match world_light.p_in_world() {
@@ -169,6 +182,29 @@ impl Planner<'_> {
             casts: !volumes.is_empty(),
             volumes,
             skipped,
+        })
+    }
+
+    /// Whether a parallel view looks so nearly along a directional light that no shadow comes to
+    /// lie beside its caster: over the whole depth of the scene, by less than a quarter of a pixel.
+    /// The sides of volumes are then seen edge-on, where a device cannot tell which way they face.
+    fn along(&self, light: &WorldLight) -> Option<Along> {
+        let (Lens::Orthographic { half_height }, LightShape::Directional { towards }) =
+            (self.view.lens, light.shape)
+        else {
+            return None;
+        };
+        let forward = self.view.forward();
+        let across = towards.cross(forward).length();
+        let (nearest, farthest) = self.view.depth_bounds(&self.content.bounds)?;
+        let pixel = 2.0 * half_height / f64::from(self.region.height);
+        if across * (farthest - nearest) > 0.25 * pixel {
+            return None;
+        }
+        Some(if towards.dot(forward) < 0.0 {
+            Along::WithLight
+        } else {
+            Along::AgainstLight
         })
     }
 
