@@ -7,8 +7,9 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::binding::{self, STORAGE, UNIFORM};
+use super::casters::{Casters, storage};
 use super::device::Gpu;
-use super::volumes::{Casters, light_in_mesh, storage};
+use super::volumes::light_in_mesh;
 use crate::content::{Content, WorldLight};
 use crate::shader;
 use crate::volume::{CastRule, component_signs};

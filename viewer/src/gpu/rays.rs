@@ -4,9 +4,9 @@ use glam::{DVec3, Vec3};
 use scenegraph::scene::Scene;
 
 use super::binding::{self, STORAGE};
+use super::casters::storage;
 use super::device::Gpu;
 use super::targets::Targets;
-use super::volumes::storage;
 use crate::content::Content;
 use crate::shader;
 

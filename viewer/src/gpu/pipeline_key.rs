@@ -1,0 +1,104 @@
+//! Everything that a pipeline depends on.
+
+use crate::shader::ShaderKey;
+
+/// The bits of the stencil that count while one keeps the result of earlier layers.
+pub const LAYER_BITS: u32 = 0x7f;
+/// The one that keeps it.
+pub const LAYER_FLAG: u32 = 0x80;
+
+/// How a surface shader is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Nearest wins, depth is written.
+    First,
+    /// Added where the depth is equal.
+    Add {
+        /// And where the stencil is zero.
+        tests_stencil: bool,
+    },
+    /// Blended over what is there.
+    Blend,
+}
+
+/// Which faces are left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Cull {
+    /// None.
+    None,
+    /// Back faces.
+    Back,
+    /// Front faces.
+    Front,
+}
+
+/// A part of shadow volumes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum VolumePart {
+    /// Sides counted in front of the scene.
+    ZPassSides,
+    /// Sides counted behind it.
+    ZFailSides,
+    /// Triangles that face the light, or away from it.
+    LightCap {
+        /// They face it.
+        is_pos: bool,
+    },
+    /// The same at infinity.
+    DarkCap {
+        /// They face it.
+        is_pos: bool,
+    },
+}
+
+/// Everything a pipeline depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PipelineKey {
+    /// Draws objects.
+    Surface {
+        /// By this shader.
+        shader: ShaderKey,
+        /// In this stage.
+        stage: Stage,
+        /// Without these faces.
+        cull: Cull,
+        /// Front is clockwise.
+        is_mirrored: bool,
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Counts shadow volumes.
+    Volume {
+        /// This part.
+        part: VolumePart,
+        /// The near plane cuts nothing.
+        is_unclipped: bool,
+        /// Counts in seven bits; the eighth keeps what the layers before found.
+        is_layered: bool,
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Ends a layer of volumes: where the seven bits are not zero the eighth is set, and they
+    /// become zero.
+    EndLayer {
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Begins a layer: the seven bits become the reference.
+    BeginLayer {
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Draws depth as a light sees it.
+    Map,
+    /// Draws the gradient.
+    Background {
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Turns summed light into the image.
+    Present {
+        /// Samples a pixel of the light.
+        samples: u32,
+    },
+}
