@@ -13,7 +13,7 @@ use viewer::texture::Images;
 use viewer::view::{Lens, Region, View};
 
 /// Frames are drawn until this is over, at least [`LEAST_FRAMES`]; the fastest counts.
-const PATIENCE: Duration = Duration::from_secs(3);
+const PATIENCE: Duration = Duration::from_secs(1);
 const LEAST_FRAMES: u32 = 2;
 /// Lit and shadowed pixels differ by far more steps of 8 bits than this, equal ones by less.
 const STEPS: f64 = 8.0 / 255.0;

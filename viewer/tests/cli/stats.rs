@@ -93,7 +93,7 @@ fn statistics_say_what_was_drawn() {
     assert!(count("z_pass") + count("z_fail") > 0, "{volumes}");
     assert!(count("primitives") > 0, "{volumes}");
     let bytes = &stats["device_bytes"];
-    let parts = ["meshes", "textures", "casters", "images"];
+    let parts = ["meshes", "textures", "casters", "shadows", "images"];
     let sum: u64 = parts.iter().map(|key| bytes[key].as_u64().unwrap()).sum();
     assert_eq!(bytes["total"].as_u64(), Some(sum));
     // 36 indices and 24 corners with normals at least.
