@@ -6,9 +6,10 @@
 use std::collections::HashMap;
 
 use glam::{DAffine3, DVec3};
+use iv_parser::SourcePos;
 use scenegraph::scene::{
-    Camera, Faces, Instance, Light, LightKind, LightModel, Material, Mesh, Scene, TextureModel,
-    TextureSource, Topology,
+    Camera, Environment, Faces, Instance, Light, LightKind, LightModel, Material, Mesh, Scene,
+    TextureModel, TextureSource, Topology,
 };
 
 /// Which values a file holds.
@@ -183,7 +184,11 @@ fn shape_difference(
     };
     let reads_colors = !mesh.colors_srgb.is_empty() && !replaced;
     let lit_set = |scene: &Scene, i: &Instance| scene.light_sets[i.light_set.index()].clone();
-    let environment = |s: &Scene, i: &Instance| s.environments[i.environment.index()].clone();
+    // Places in the source do not come back.
+    let environment = |s: &Scene, i: &Instance| Environment {
+        pos: SourcePos::default(),
+        ..s.environments[i.environment.index()].clone()
+    };
     first(&[
         ("indices", !in_another_order),
         ("normals", normals),
