@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::text::{Mesh, Text};
-use super::{ShadowScene, over, perspective};
+use super::{ShadowScene, perspective};
 
 /// Layers in the scenes of this file.
 pub const LAYERS: usize = 300;
