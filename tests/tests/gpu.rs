@@ -5,6 +5,7 @@
 
 mod gpu {
     mod device;
+    mod economy;
     mod mask;
     mod shadows;
 }
