@@ -6,6 +6,8 @@
 mod gpu {
     mod device;
     mod economy;
+    mod golden;
     mod mask;
+    mod shading;
     mod shadows;
 }
