@@ -6,6 +6,7 @@
 mod gpu {
     mod device;
     mod economy;
+    mod far;
     mod golden;
     mod mask;
     mod shading;
