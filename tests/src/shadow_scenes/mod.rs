@@ -15,8 +15,9 @@ pub use edges::{
 pub use layers::{LAYERS, nested_open_shells, nested_shells, quad_stack};
 pub use looks::{fogs, many_lights, panes, textures, vertex_colors};
 pub use places::{
-    closed_room, eye_in_shadow, eye_on_side_plane, far_by_coordinates, far_by_transform,
-    light_in_plane, mirrored, parallel_views, parallel_views_of_lamp, room_with_window,
+    closed_room, culled_casters, eye_in_shadow, eye_on_side_plane, far_by_coordinates,
+    far_by_transform, light_in_plane, mirrored, parallel_views, parallel_views_of_lamp,
+    room_with_window,
 };
 pub use sphere_grid::{GridLight, GridSize, sphere_grid};
 
@@ -70,6 +71,7 @@ pub fn all(offset: DVec3) -> Vec<ShadowScene> {
         room_with_window(),
         light_in_plane(),
         mirrored(),
+        culled_casters(),
         parallel_views(),
         parallel_views_of_lamp(),
         far_by_coordinates(offset),

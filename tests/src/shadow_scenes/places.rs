@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::text::{Mesh, Text};
 use super::{ShadowScene, orthographic, over, perspective};
+use crate::reference::{RefCamera, RefLens};
 
 /// Slabs over the eye, so that it is in one, two or three shadow volumes, or just outside.
 pub fn eye_in_shadow() -> ShadowScene {
@@ -133,6 +134,42 @@ pub fn light_in_plane() -> ShadowScene {
         cameras: vec![
             ("over", over()),
             ("low", perspective(DVec3::new(3.0, 0.6, 2.0), DVec3::Y, 0.5)),
+        ],
+    }
+}
+
+/// Solids whose faces on the eye's side are not drawn, because they have none inside or are inside
+/// out: what is behind them is seen, and in their shadow.
+pub fn culled_casters() -> ShadowScene {
+    let mut text = Text::new();
+    text.sun([0.0, -1.0, 0.0], 0.5);
+    text.lamp("PointLight", DVec3::new(1.1, 4.0, 0.7), "intensity 0.5");
+    text.floor(0.0, 3.0);
+    text.raw("ShapeHints { vertexOrdering COUNTERCLOCKWISE shapeType SOLID }");
+    // Facing down.
+    let sheet = Mesh::quad([-1.75, 1.0, -0.75], [1.5, 0.0, 0.0], [0.0, 0.25, 1.5]);
+    text.colored([0.9, 0.7, 0.2], &sheet);
+    let inside_out = Mesh::cuboid([0.25, 0.25, -0.5], [1.25, 1.0, 0.5]).reversed();
+    text.colored([0.3, 0.7, 0.9], &inside_out);
+    let above = DVec3::Y * 9.0;
+    let lens = RefLens::Orthographic { half_height: 3.2 };
+    ShadowScene {
+        name: "casters that are not drawn from their back",
+        text: text.finish(),
+        cameras: vec![
+            ("over", over()),
+            (
+                "along the sun",
+                RefCamera::look_at(above, DVec3::ZERO, DVec3::Z, lens),
+            ),
+            (
+                "parallel",
+                orthographic(DVec3::new(3.0, 7.0, 5.0), DVec3::ZERO, 2.5),
+            ),
+            (
+                "from below",
+                orthographic(DVec3::new(1.0, -7.0, 3.0), DVec3::ZERO, 2.5),
+            ),
         ],
     }
 }

@@ -21,8 +21,13 @@ pub struct Draw {
 pub struct VolumeDraw {
     /// Index into [`Content::objects`].
     pub object: u32,
-    /// Sides alone, counted in front of the scene; else sides and caps, counted behind it.
+    /// Counted in front of the scene; else sides and all caps, counted behind it.
     pub is_z_pass: bool,
+    /// Z-pass: caps at the light's end are counted too. Where a way into the volume leads through
+    /// the caster, the caster hides what is behind; but not with faces that are not drawn.
+    pub has_light_caps: bool,
+    /// False for sides seen edge-on, where a device cannot tell which way they face.
+    pub has_sides: bool,
 }
 
 /// What a pass does.

@@ -160,8 +160,8 @@ impl Planner<'_> {
             Shadows::None => (Vec::new(), Vec::new()),
             _ if !world_light.casts_shadows => (Vec::new(), Vec::new()),
             _ => match self.along(world_light) {
-                // What is seen is what the light meets first.
-                Some(Along::WithLight) => (Vec::new(), Vec::new()),
+                // What is seen is what the light meets first, or lies behind faces not drawn.
+                Some(Along::WithLight) => self.volumes_face_on(world_light),
                 Some(Along::AgainstLight) => return Err(SkipReason::LightReachesNothing),
                 None => self.volumes(world_light),
             },
@@ -208,6 +208,18 @@ impl Planner<'_> {
         })
     }
 
+    /// The casters whose shadows may be seen by a view along the light: those with faces that are
+    /// not drawn.
+    fn volumes_face_on(&self, light: &WorldLight) -> (Vec<VolumeDraw>, Vec<Skip>) {
+        let (mut volumes, mut skipped) = self.volumes(light);
+        volumes.retain(|volume| volume.has_light_caps);
+        skipped.retain(|skip| skip.reason != SkipReason::CapsNotNeeded);
+        for volume in &mut volumes {
+            volume.has_sides = false;
+        }
+        (volumes, skipped)
+    }
+
     /// The casters whose shadows may be seen.
     fn volumes(&self, light: &WorldLight) -> (Vec<VolumeDraw>, Vec<Skip>) {
         let planes = self.frustum.planes_in_world();
@@ -242,12 +254,15 @@ impl Planner<'_> {
                         && zpass_is_safe(&object.bounds, self.view.eye, corners, light_in_world)
                 }
             };
-            if is_z_pass {
+            let has_light_caps = is_z_pass && object.is_culled;
+            if is_z_pass && !has_light_caps {
                 counts.add(SkipReason::CapsNotNeeded);
             }
             volumes.push(VolumeDraw {
                 object: index,
                 is_z_pass,
+                has_light_caps,
+                has_sides: true,
             });
         }
         (volumes, counts.list())

@@ -39,12 +39,17 @@ pub enum VolumePart {
     ZPassSides,
     /// Sides counted behind it.
     ZFailSides,
-    /// Triangles that face the light, or away from it.
+    /// Triangles that face the light, or away from it, counted in front of the scene.
+    ZPassLightCap {
+        /// They face it.
+        is_pos: bool,
+    },
+    /// The same, counted behind it.
     LightCap {
         /// They face it.
         is_pos: bool,
     },
-    /// The same at infinity.
+    /// At infinity.
     DarkCap {
         /// They face it.
         is_pos: bool,

@@ -157,19 +157,25 @@ pub fn volume(
     );
     let (entry_point, is_front_ccw) = match part {
         VolumePart::ZPassSides | VolumePart::ZFailSides => ("side", true),
-        VolumePart::LightCap { is_pos } => ("light_cap", is_pos),
+        VolumePart::ZPassLightCap { is_pos } | VolumePart::LightCap { is_pos } => {
+            ("light_cap", is_pos)
+        }
         VolumePart::DarkCap { is_pos } => ("dark_cap", !is_pos),
     };
     // Z-pass counts what lies before the scene: in at a front face, out at a back face. Z-fail
     // counts what does not: from infinity towards the eye, so in at a back face.
-    let face = |operation| match part {
-        VolumePart::ZPassSides => wgpu::StencilFaceState {
+    let is_z_pass = matches!(
+        part,
+        VolumePart::ZPassSides | VolumePart::ZPassLightCap { .. }
+    );
+    let face = |operation| match is_z_pass {
+        true => wgpu::StencilFaceState {
             compare: wgpu::CompareFunction::Always,
             fail_op: wgpu::StencilOperation::Keep,
             depth_fail_op: wgpu::StencilOperation::Keep,
             pass_op: operation,
         },
-        _ => wgpu::StencilFaceState {
+        false => wgpu::StencilFaceState {
             compare: wgpu::CompareFunction::Always,
             fail_op: wgpu::StencilOperation::Keep,
             depth_fail_op: operation,
@@ -180,9 +186,9 @@ pub fn volume(
         wgpu::StencilOperation::IncrementWrap,
         wgpu::StencilOperation::DecrementWrap,
     );
-    let (front, back) = match part {
-        VolumePart::ZPassSides => (face(up), face(down)),
-        _ => (face(down), face(up)),
+    let (front, back) = match is_z_pass {
+        true => (face(up), face(down)),
+        false => (face(down), face(up)),
     };
     gpu.device
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {

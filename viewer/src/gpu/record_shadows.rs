@@ -31,8 +31,16 @@ pub(super) fn volume_parts(
     let is_parallel = matches!(view.lens, Lens::Orthographic { .. });
     let forces_z_fail = is_one_list && !is_parallel;
     let mut parts = Vec::new();
-    if !forces_z_fail && pass.volumes.iter().any(|volume| volume.is_z_pass) {
+    let z_pass = || {
+        pass.volumes
+            .iter()
+            .filter(|v| !forces_z_fail && v.is_z_pass)
+    };
+    if z_pass().any(|volume| volume.has_sides) {
         parts.push(VolumePart::ZPassSides);
+    }
+    if z_pass().any(|volume| volume.has_light_caps) {
+        parts.extend([true, false].map(|is_pos| VolumePart::ZPassLightCap { is_pos }));
     }
     if forces_z_fail || pass.volumes.iter().any(|volume| !volume.is_z_pass) {
         parts.push(VolumePart::ZFailSides);
@@ -199,7 +207,9 @@ impl Recorder<'_> {
 fn part_index(part: VolumePart) -> u64 {
     match part {
         VolumePart::ZPassSides | VolumePart::ZFailSides => 0,
-        VolumePart::LightCap { is_pos } | VolumePart::DarkCap { is_pos } => {
+        VolumePart::ZPassLightCap { is_pos }
+        | VolumePart::LightCap { is_pos }
+        | VolumePart::DarkCap { is_pos } => {
             if is_pos {
                 1
             } else {
@@ -212,6 +222,8 @@ fn part_index(part: VolumePart) -> u64 {
 fn part_ranges(ranges: &VolumeRanges, part: VolumePart) -> (&[Range<u32>], u32) {
     match part {
         VolumePart::ZPassSides => (&ranges.z_pass_sides, 6),
+        VolumePart::ZPassLightCap { is_pos: true } => (&ranges.z_pass_cap_pos, 3),
+        VolumePart::ZPassLightCap { is_pos: false } => (&ranges.z_pass_cap_neg, 3),
         VolumePart::ZFailSides => (&ranges.z_fail_sides, 6),
         VolumePart::LightCap { is_pos: true } | VolumePart::DarkCap { is_pos: true } => {
             (&ranges.cap_pos, 3)

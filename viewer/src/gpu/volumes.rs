@@ -50,6 +50,10 @@ pub struct LightVolumes {
 pub struct VolumeRanges {
     /// Sides counted in front of the scene.
     pub z_pass_sides: Vec<Range<u32>>,
+    /// Caps counted in front of it, of triangles that face the light.
+    pub z_pass_cap_pos: Vec<Range<u32>>,
+    /// Of triangles that face away.
+    pub z_pass_cap_neg: Vec<Range<u32>>,
     /// Sides counted behind it.
     pub z_fail_sides: Vec<Range<u32>>,
     /// Caps of triangles that face the light.
@@ -117,7 +121,7 @@ impl LightVolumes {
         for parts in &self.layers[layer] {
             while draws.next_if(|draw| draw.object < parts.object).is_some() {}
             match draws.peek() {
-                Some(draw) if draw.object == parts.object => ranges.add(parts, draw.is_z_pass),
+                Some(draw) if draw.object == parts.object => ranges.add(parts, draw),
                 _ => {}
             }
         }
@@ -160,9 +164,15 @@ impl LightVolumes {
 }
 
 impl VolumeRanges {
-    fn add(&mut self, parts: &Parts, is_z_pass: bool) {
-        if is_z_pass {
-            join(&mut self.z_pass_sides, &parts.sides);
+    fn add(&mut self, parts: &Parts, draw: &VolumeDraw) {
+        if draw.is_z_pass {
+            if draw.has_sides {
+                join(&mut self.z_pass_sides, &parts.sides);
+            }
+            if draw.has_light_caps {
+                join(&mut self.z_pass_cap_pos, &parts.cap_pos);
+                join(&mut self.z_pass_cap_neg, &parts.cap_neg);
+            }
         } else {
             join(&mut self.z_fail_sides, &parts.sides);
             join(&mut self.cap_pos, &parts.cap_pos);

@@ -82,16 +82,18 @@ fn cast_rays(@builtin(global_invocation_id) id: vec3u) {
         let at = (vec2f(id.xy) + SAMPLE_PLACES) * frame.viewport.zw;
         let clip = vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, z, 1.0);
         let h = frame.rel_from_clip * clip;
-        let rel = h.xyz / h.w;
+        let seen = h.xyz / h.w;
+        // The point is known to some roundings of its distance. It is asked so far before its
+        // surface, where its own triangle is in the way of a light behind it.
+        let back = select(-seen, -frame.view_axis.xyz * length(seen), frame.view_axis.w > 0.0);
+        let rel = seen + 1e-5 * back;
         var way = light.xyz;
         var far = 1e30;
         if light.w > 0.0 {
             way = light.xyz - rel;
             far = 1.0;
         }
-        // The point is known to some roundings of its distance; so much of the way is not asked.
-        let near = 3e-5 * length(rel) / length(way);
-        if is_blocked(rel + frame.eye_in_rays.xyz, way, near, far) {
+        if is_blocked(rel + frame.eye_in_rays.xyz, way, 0.0, far) {
             bits |= 1u << u32(sample);
         }
     }
