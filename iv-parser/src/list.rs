@@ -38,7 +38,7 @@ impl<T> From<Vec<T>> for List<T> {
     }
 }
 
-/// Which list of a [`Lists`].
+/// Which list of a `Lists`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
     array: u32,

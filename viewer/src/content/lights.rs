@@ -63,7 +63,7 @@ impl WorldLight {
         self.color_srgb.iter().all(|&c| c <= 0.0)
     }
 
-    /// Beyond this distance its light is below [`DARKEST_VISIBLE`] on the brightest material
+    /// Beyond this distance its light is below `DARKEST_VISIBLE` on the brightest material
     /// (diffuse and specular one); infinite if it does not weaken.
     pub fn reach(&self) -> f64 {
         let Some([quadratic, linear, constant]) = self.attenuation else {

@@ -10,7 +10,7 @@ use crate::shader::{ShaderKey, ShadowLookup};
 /// Consecutive objects of one mesh, drawn by one shader as instances.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Draw {
-    /// Indices into [`Content::objects`].
+    /// Indices into [`crate::content::Content::objects`].
     pub objects: Range<u32>,
     /// By which shader.
     pub shader: ShaderKey,
@@ -19,7 +19,7 @@ pub struct Draw {
 /// The shadow volume of one object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VolumeDraw {
-    /// Index into [`Content::objects`].
+    /// Index into [`crate::content::Content::objects`].
     pub object: u32,
     /// Counted in front of the scene; else sides and all caps, counted behind it.
     pub is_z_pass: bool,
