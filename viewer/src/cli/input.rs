@@ -1,5 +1,5 @@
 //! The model: read, told apart by content, resolved. Prints nothing; what is wrong with it is in
-//! [`Input::diagnostics`].
+//! the list of diagnostics.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
