@@ -11,4 +11,5 @@ mod gpu {
     mod mask;
     mod shading;
     mod shadows;
+    mod techniques;
 }
