@@ -6,6 +6,7 @@
 
 mod lights;
 mod look;
+pub mod positions;
 mod surface;
 
 use geometry::bounds::Aabb;
@@ -97,7 +98,7 @@ impl Content {
                 is_culled: material.faces == Faces::FrontOnly
                     && mesh.topology == Topology::Triangles,
                 is_mirrored: local.matrix3.determinant() < 0.0,
-                world_from_mesh: local * DAffine3::from_translation(mesh.origin),
+                world_from_mesh: local * DAffine3::from_translation(positions::place(mesh)),
                 bounds,
                 light_set: instance.light_set.0,
             });

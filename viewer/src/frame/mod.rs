@@ -3,6 +3,7 @@
 //! Pure: what is here can be read by tests without a device. `gpu` encodes it.
 
 mod cull;
+mod far_plane;
 mod lists;
 mod plan;
 mod planner;
@@ -10,6 +11,7 @@ mod scissor;
 mod settings;
 
 pub use cull::Frustum;
+pub use far_plane::{far_plane, is_cut, rel_plane};
 pub use plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason, VolumeDraw};
 pub use planner::plan;
 pub use settings::{Extraction, Settings, Shadows, VolumeMethod};

@@ -6,6 +6,7 @@ use wgpu::util::DeviceExt;
 
 use super::device::Gpu;
 use crate::content::Content;
+use crate::content::positions::positions;
 use crate::volume::CasterMesh;
 
 /// Where a caster's arrays begin in the shared buffers.
@@ -84,7 +85,7 @@ impl Casters {
                 continue;
             }
             let mesh = &scene.meshes[object.mesh.index()];
-            let caster = CasterMesh::new(&mesh.positions, &mesh.indices);
+            let caster = CasterMesh::new(&positions(mesh), &mesh.indices);
             let base = arrays.add(&caster);
             meshes.insert(object.mesh, (caster, base));
         }

@@ -1,11 +1,11 @@
 //! The numbers of a frame: what f64 knows of the world, as f32 around the eye.
 
-use glam::{DAffine3, DMat4, DVec3};
+use glam::{DAffine3, DMat4, DVec3, DVec4};
 
 use super::binding::{self, Layouts};
 use super::device::Gpu;
 use crate::content::{Content, LightShape, Surface, WorldLight};
-use crate::frame::Plan;
+use crate::frame::{Plan, rel_plane};
 use crate::shader;
 use crate::view::{Lens, Region, View};
 
@@ -99,12 +99,12 @@ impl FrameData {
     /// Writes all numbers of a frame.
     pub fn write(
         &mut self,
-        gpu: &Gpu,
-        layouts: &Layouts,
+        (gpu, layouts): (&Gpu, &Layouts),
         content: &Content,
         plan: &Plan,
         frame: &shader::Frame,
         view: &View,
+        far_planes: &[DVec4],
     ) {
         let has_headlight = plan.lights.len() > content.lights.len();
         let (lists, spans) = light_lists(content, has_headlight);
@@ -127,8 +127,10 @@ impl FrameData {
         let lights: Vec<shader::Light> = plan.lights.iter().map(|l| light(l, view.eye)).collect();
         let passes: Vec<u8> = (0..plan.lights.len().max(1) as u32)
             .flat_map(|i| {
+                let plane = far_planes.get(i as usize).copied().unwrap_or_default();
                 let values = shader::PassValues {
                     light: [i, 0, 0, 0],
+                    far_plane: rel_plane(plane, view).as_vec4().to_array(),
                 };
                 let mut bytes = [0; PASS_STRIDE as usize];
                 bytes[..size_of::<shader::PassValues>()]

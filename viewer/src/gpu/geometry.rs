@@ -8,6 +8,7 @@ use scenegraph::scene::{Mesh, MeshId, Scene, Topology};
 use wgpu::util::DeviceExt;
 
 use crate::content::Content;
+use crate::content::positions::positions;
 
 /// Which attributes the meshes of a group have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -190,13 +191,16 @@ impl Collected {
             Topology::Lines => {
                 let first = self.line_ends.len() / 2;
                 let ends = &mesh.indices[..mesh.indices.len() / 2 * 2];
-                self.line_ends.extend(ends.iter().map(|&i| end(mesh, i)));
+                let places = positions(mesh);
+                self.line_ends
+                    .extend(ends.iter().map(|&i| end(mesh, &places, i)));
                 strokes(first, ends.len() / 2)
             }
             Topology::Points => {
                 let first = self.points.len();
+                let places = positions(mesh);
                 self.points
-                    .extend(mesh.indices.iter().map(|&i| end(mesh, i)));
+                    .extend(mesh.indices.iter().map(|&i| end(mesh, &places, i)));
                 strokes(first, mesh.indices.len())
             }
         };
@@ -223,7 +227,7 @@ impl Collected {
             index_count: u32::try_from(mesh.indices.len()).unwrap_or(0),
             base_vertex: i32::try_from(data.positions.len()).unwrap_or(i32::MAX),
         };
-        data.positions.extend(&mesh.positions);
+        data.positions.extend(positions(mesh).iter());
         data.normals.extend(&mesh.normals);
         data.texcoords.extend(&mesh.texcoords);
         data.colors.extend(&mesh.colors_srgb);
@@ -239,13 +243,13 @@ fn strokes(first: usize, count: usize) -> MeshRange {
     }
 }
 
-fn end(mesh: &Mesh, index: u32) -> StrokeEnd {
+fn end(mesh: &Mesh, places: &[[f32; 3]], index: u32) -> StrokeEnd {
     let i = index as usize;
     let color = mesh.colors_srgb.get(i).copied().unwrap_or([1.0; 4]);
     // Saturating: `as` clamps what is out of range, and the clamp makes NaN 0.
     let bytes = color.map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8);
     StrokeEnd {
-        position: mesh.positions[i],
+        position: places[i],
         color_rgba8: u32::from_le_bytes(bytes),
         normal: mesh.normals.get(i).copied().unwrap_or_default(),
         unused: 0.0,

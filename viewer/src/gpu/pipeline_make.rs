@@ -156,7 +156,8 @@ pub fn volume(
         ],
     );
     let (entry_point, is_front_ccw) = match part {
-        VolumePart::ZPassSides | VolumePart::ZFailSides => ("side", true),
+        VolumePart::ZPassSides => ("side_cut", true),
+        VolumePart::ZFailSides => ("side", true),
         VolumePart::ZPassLightCap { is_pos } | VolumePart::LightCap { is_pos } => {
             ("light_cap", is_pos)
         }

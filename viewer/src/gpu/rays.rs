@@ -8,6 +8,7 @@ use super::casters::storage;
 use super::device::Gpu;
 use super::targets::Targets;
 use crate::content::Content;
+use crate::content::positions::positions;
 use crate::shader;
 
 /// A box of the hierarchy, as `wgsl/rays.wgsl` reads it.
@@ -44,10 +45,11 @@ impl Hierarchy {
         let mut triangles = Vec::new();
         for object in content.objects.iter().filter(|object| object.is_caster()) {
             let mesh = &scene.meshes[object.mesh.index()];
+            let places = positions(mesh);
             let mut rel = object.world_from_mesh;
             rel.translation -= origin;
             let at = |i: u32| {
-                let p = Vec3::from_array(mesh.positions[i as usize]).as_dvec3();
+                let p = Vec3::from_array(places[i as usize]).as_dvec3();
                 rel.transform_point3(p).as_vec3()
             };
             for index in mesh.indices.chunks_exact(3) {

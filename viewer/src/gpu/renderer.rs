@@ -4,6 +4,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use glam::DVec4;
 use rustc_hash::FxHashMap;
 use scenegraph::scene::Scene;
 
@@ -199,12 +200,12 @@ impl Renderer {
             self.content.bounds.center(),
         );
         self.frame_data.write(
-            &self.gpu,
-            &self.layouts,
+            (&self.gpu, &self.layouts),
             &self.content,
             &plan,
             &numbers,
             view,
+            &self.far_planes(&plan),
         );
         let commands = self.record(&plan, view, region, settings, &mut report);
         self.gpu.queue.submit([commands]);
@@ -320,6 +321,18 @@ impl Renderer {
                 self.rays = Some(Rays::new(&self.gpu, &self.layouts, &hierarchy, targets));
             }
         }
+    }
+
+    /// Where the volumes of each light end; zero where they do not.
+    fn far_planes(&self, plan: &Plan) -> Vec<DVec4> {
+        (0..plan.lights.len() as u32)
+            .map(|light| {
+                let volumes = self.volumes.of(light);
+                volumes
+                    .and_then(|volumes| volumes.far_plane)
+                    .unwrap_or_default()
+            })
+            .collect()
     }
 
     /// The volumes of a light that the device made, if it did.

@@ -3,12 +3,14 @@
 
 use std::borrow::Cow;
 
+use geometry::bounds::Aabb;
+
 use super::binding::{self, Layouts};
 use super::casters::{Arrays, Base, Casters, storage};
 use super::device::Gpu;
 use super::volumes::{LightVolumes, Parts, Signs, light_in_mesh, light_in_world};
 use crate::content::{Content, WorldLight};
-use crate::frame::VolumeMethod;
+use crate::frame::{VolumeMethod, far_plane, is_cut};
 use crate::volume::{
     CastRule, CasterMesh, LayerCaster, Method, Volume, bisect, extract, facing, layer_bound, split,
 };
@@ -131,13 +133,23 @@ pub fn make(
             maker.bound(&pieces[range], MAX_SPLIT_LAYERS) <= MAX_SPLIT_LAYERS
         });
     }
+    let boxes: Vec<Aabb> = pieces
+        .iter()
+        .map(|piece| content.objects[piece.object as usize].bounds)
+        .collect();
+    let far_plane = far_plane(&content.bounds, &light.shape, &boxes);
+    let is_cut: Vec<bool> = boxes
+        .iter()
+        .map(|bounds| far_plane.is_some_and(|plane| is_cut(plane, &light.shape, bounds)))
+        .collect();
     let mut entries = Entries::default();
     let mut parts: Vec<Vec<Parts>> = layers
         .iter()
         .map(|range| {
             pieces[range.clone()]
                 .iter()
-                .map(|piece| entries.add(piece))
+                .zip(&is_cut[range.clone()])
+                .map(|(piece, &is_cut)| entries.add(piece, is_cut))
                 .collect()
         })
         .collect();
@@ -169,6 +181,7 @@ pub fn make(
         layers: parts,
         signs,
         group,
+        far_plane,
         bytes: entries.size(),
     }
 }
@@ -184,6 +197,9 @@ fn signs_of(piece: Piece<'_>) -> Signs {
     }
 }
 
+/// The bit of an entry's object that lets its side end at the far plane.
+const CUT: u32 = 1 << 31;
+
 /// Entries while they are collected: sides first, then the two kinds of caps.
 #[derive(Default)]
 struct Entries {
@@ -193,18 +209,22 @@ struct Entries {
 }
 
 impl Entries {
-    fn add(&mut self, piece: &Piece<'_>) -> Parts {
-        let push = |list: &mut Vec<[u32; 2]>, from: &[u32], base: u32| {
+    fn add(&mut self, piece: &Piece<'_>, is_cut: bool) -> Parts {
+        let push = |list: &mut Vec<[u32; 2]>, from: &[u32], base: u32, mark: u32| {
             let start = list.len() as u32;
-            list.extend(from.iter().map(|&entry| [entry + base, piece.object]));
+            list.extend(
+                from.iter()
+                    .map(|&entry| [entry + base, piece.object | mark]),
+            );
             start..list.len() as u32
         };
+        let cut = if is_cut { CUT } else { 0 };
         let Base { edge, triangle } = piece.base;
         Parts {
             object: piece.object,
-            sides: push(&mut self.sides, &piece.volume.sides, edge << 1),
-            cap_pos: push(&mut self.cap_pos, &piece.volume.cap_pos, triangle),
-            cap_neg: push(&mut self.cap_neg, &piece.volume.cap_neg, triangle),
+            sides: push(&mut self.sides, &piece.volume.sides, edge << 1, cut),
+            cap_pos: push(&mut self.cap_pos, &piece.volume.cap_pos, triangle, 0),
+            cap_neg: push(&mut self.cap_neg, &piece.volume.cap_neg, triangle, 0),
         }
     }
 

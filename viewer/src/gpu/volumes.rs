@@ -41,6 +41,8 @@ pub struct LightVolumes {
     pub(super) signs: Vec<Vec<Signs>>,
     /// Group 2.
     pub group: wgpu::BindGroup,
+    /// Where they may end, in the world.
+    pub far_plane: Option<DVec4>,
     /// On the device.
     pub(super) bytes: u64,
 }

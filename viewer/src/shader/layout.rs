@@ -83,5 +83,7 @@ layouts! {
     PassValues {
         /// Index of the light; unused.
         light: [u32; 4],
+        /// Where shadow volumes end, in rel; zero: nowhere.
+        far_plane: [f32; 4],
     }
 }

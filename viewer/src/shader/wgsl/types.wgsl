@@ -55,6 +55,8 @@ struct Light {
 struct PassValues {
     // Index of the light; unused.
     light: vec4u,
+    // Where shadow volumes end, in rel, its normal away from the scene; zero: nowhere.
+    far_plane: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -5,7 +5,8 @@
 @group(2) @binding(1) var<storage, read> edges: array<vec4u>;
 // Three welded vertices; component.
 @group(2) @binding(2) var<storage, read> triangles: array<vec4u>;
-// Sides: edge << 1 | reversed, instance. Caps: triangle, instance.
+// Sides: edge << 1 | reversed, instance with CUT if its volume may end at the far plane. Caps:
+// triangle, instance.
 @group(2) @binding(3) var<storage, read> entries: array<vec2u>;
 
 // Away from the light, at infinity.
@@ -18,8 +19,29 @@ struct Out {
     @builtin(position) @invariant clip: vec4f,
 }
 
+const CUT: u32 = 0x80000000u;
+
+// Away from the light, on the far plane.
+fn end_of(rel: vec3f) -> vec4f {
+    let light = lights[pass_values.light.x].position;
+    let plane = pass_values.far_plane;
+    let way = rel * light.w - light.xyz;
+    let t = -(dot(plane.xyz, rel) + plane.w) / dot(plane.xyz, way);
+    return clip_of(rel + way * t);
+}
+
+// For z-pass: what is behind the far plane is never seen before.
+@vertex
+fn side_cut(@builtin(vertex_index) index: u32) -> Out {
+    return side_of(index, any(pass_values.far_plane != vec4f(0.0)));
+}
+
 @vertex
 fn side(@builtin(vertex_index) index: u32) -> Out {
+    return side_of(index, false);
+}
+
+fn side_of(index: u32, has_end: bool) -> Out {
     let entry = entries[index / 6u];
     let edge = edges[entry.x >> 1u];
     let is_reversed = (entry.x & 1u) == 1u;
@@ -29,8 +51,11 @@ fn side(@builtin(vertex_index) index: u32) -> Out {
     let corner = index % 6u;
     let is_b = corner == 0u || corner == 3u || corner == 5u;
     let is_far = corner == 2u || corner == 4u || corner == 5u;
-    let rel = rel_of(entry.y, positions[select(a, b, is_b)].xyz);
+    let rel = rel_of(entry.y & ~CUT, positions[select(a, b, is_b)].xyz);
     if is_far {
+        if has_end && (entry.y & CUT) != 0u {
+            return Out(end_of(rel));
+        }
         return Out(far_of(rel));
     }
     return Out(clip_of(rel));
