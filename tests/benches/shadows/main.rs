@@ -3,7 +3,7 @@
 //!
 //! `cargo bench -p tests --bench shadows` prints a table over triangle counts and one over object
 //! counts; times are ratios to drawing without shadows in the same run. `-- quick` takes the
-//! smallest sizes only, `-- any` takes a GPU if there is one. docs/BENCHMARKS.md says what the
+//! smallest sizes only, `-- objects` the second table only, `-- any` takes a GPU if there is one. docs/BENCHMARKS.md says what the
 //! columns mean.
 
 mod measure;
@@ -66,7 +66,7 @@ fn main() -> ExitCode {
     } else {
         AdapterChoice::Software
     };
-    match bench(choice, has("quick")) {
+    match bench(choice, has("quick"), has("objects")) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -75,7 +75,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn bench(choice: AdapterChoice, is_quick: bool) -> Result<(), GpuError> {
+fn bench(choice: AdapterChoice, is_quick: bool, has_objects_only: bool) -> Result<(), GpuError> {
     let gpu = Gpu::new(choice)?;
     println!("{} ({:?})\n", gpu.info.name, gpu.info.backend);
     let images: &[[u32; 2]] = if is_quick {
@@ -84,7 +84,8 @@ fn bench(choice: AdapterChoice, is_quick: bool) -> Result<(), GpuError> {
         &[[512, 512], [1024, 768]]
     };
     let sizes = if is_quick { &SIZES[..1] } else { &SIZES[..] };
-    for light in [GridLight::Point, GridLight::Directional] {
+    let lights = [GridLight::Point, GridLight::Directional];
+    for light in lights.into_iter().filter(|_| !has_objects_only) {
         for &image in images {
             println!("{light:?} light, {} x {}", image[0], image[1]);
             head();
