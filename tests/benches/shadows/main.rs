@@ -1,5 +1,5 @@
 //! How long a frame takes and how many pixels are wrong, for every shadow technique, on the sphere
-//! grid of the seeds' tables 1 to 4.
+//! grid of Milet, Kobrtek, Zemčík and Pečiva (2014, tables 1 to 4).
 //!
 //! `cargo bench -p tests --bench shadows` prints a table over triangle counts and one over object
 //! counts; times are ratios to drawing without shadows in the same run. `-- quick` takes the
