@@ -1,8 +1,9 @@
 //! From a scene and a view to the passes of a frame, leaving out what the view does not need.
 //!
-//! Pass 1 draws emission, ambient light and one light that needs no stencil, if there is one. Each
-//! further light is a pass that adds, behind a pass that makes its shadows. Transparent objects
-//! come last, each with all its lights at once.
+//! Pass 1 draws emission, ambient light and the first light together: one without shadows in view
+//! if there is one, else behind a pass for the depth and a pass that makes its shadows. Each
+//! further light is a pass that adds, behind its shadows. Transparent objects come last, each with
+//! all its lights at once.
 
 use std::ops::Range;
 
@@ -10,7 +11,7 @@ use glam::DVec3;
 
 use super::cull::{self, Frustum};
 use super::lists::{Counts, Draws};
-use super::plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason, VolumeDraw};
+use super::plan::{Draw, Pass, PassKind, Pixels, Plan, Skip, SkipReason, VolumeDraw};
 use super::scissor::scissor;
 use super::settings::{Settings, Shadows};
 use crate::content::{Content, LightShape, Object, WorldLight};
@@ -102,9 +103,14 @@ impl Planner<'_> {
                 Err(reason) => skipped_lights.push((light, reason)),
             }
         }
-        let combined = needed.iter().position(|need| !need.casts);
-        let combined = combined.map(|at| needed.remove(at).light);
-        let mut passes = vec![self.first(combined)];
+        // A light without shadows needs nothing before it.
+        let first = needed.iter().position(|need| !need.casts).unwrap_or(0);
+        let mut passes = Vec::new();
+        if needed.is_empty() {
+            passes.push(self.first(None, ShadowLookup::None, false, false));
+        } else {
+            self.first_passes(needed.remove(first), &mut passes);
+        }
         for need in needed {
             self.light_passes(need, &mut passes);
         }
@@ -288,8 +294,68 @@ impl Planner<'_> {
         matches!(self.view.lens, Lens::Orthographic { .. })
     }
 
-    fn first(&self, light: Option<u32>) -> Pass {
+    /// The pass that makes the shadows of a light, if they can be seen, and how a shader asks.
+    fn shadow_pass(&self, need: &mut Needed) -> (Option<Pass>, ShadowLookup) {
+        let light = need.light;
+        let shape = &self.lights[light as usize].shape;
+        let is_directional = matches!(shape, LightShape::Directional { .. });
+        let (kind, shadow) = match self.settings.shadows {
+            _ if !need.casts => return (None, ShadowLookup::None),
+            Shadows::None => return (None, ShadowLookup::None),
+            Shadows::Volumes { .. } => (PassKind::Volumes { light }, ShadowLookup::None),
+            Shadows::Map { .. } if is_directional => (PassKind::Map { light }, ShadowLookup::Map),
+            Shadows::Map { .. } => (PassKind::Map { light }, ShadowLookup::CubeMap),
+            Shadows::Rays => (PassKind::Rays { light }, ShadowLookup::Mask),
+        };
+        let pass = Pass {
+            kind,
+            draws: Vec::new(),
+            volumes: std::mem::take(&mut need.volumes),
+            scissor: need.scissor,
+            skipped: std::mem::take(&mut need.skipped),
+        };
+        (Some(pass), shadow)
+    }
+
+    /// Pass 1 and what must come before it.
+    fn first_passes(&self, mut need: Needed, passes: &mut Vec<Pass>) {
+        let (shadow_pass, shadow) = self.shadow_pass(&mut need);
+        let kind = shadow_pass.as_ref().map(|pass| pass.kind);
+        let has_volumes = matches!(kind, Some(PassKind::Volumes { .. }));
+        // A map is made from the scene; volumes and rays ask what is seen.
+        let has_depth = has_volumes || matches!(kind, Some(PassKind::Rays { .. }));
+        if has_depth {
+            passes.push(self.depth());
+        }
+        passes.extend(shadow_pass);
+        passes.push(self.first(Some(need.light), shadow, has_depth, has_volumes));
+    }
+
+    fn depth(&self) -> Pass {
         let mut draws = Draws::default();
+        for index in self.opaque().filter(|&i| self.is_visible[i as usize]) {
+            let object = self.object(index);
+            let key = ShaderKey::new(&object.look, Contribution::Depth, self.is_parallel());
+            draws.add(index, object, key, Pixels::All);
+        }
+        Pass {
+            kind: PassKind::Depth,
+            draws: draws.list,
+            volumes: Vec::new(),
+            scissor: None,
+            skipped: Vec::new(),
+        }
+    }
+
+    fn first(
+        &self,
+        light: Option<u32>,
+        shadow: ShadowLookup,
+        has_depth: bool,
+        has_volumes: bool,
+    ) -> Pass {
+        let mut draws = Draws::default();
+        let mut shadowed = Draws::default();
         let mut counts = Counts::default();
         for index in self.opaque() {
             let object = self.object(index);
@@ -297,38 +363,45 @@ impl Planner<'_> {
                 counts.add(SkipReason::OutOfView);
                 continue;
             }
-            let key = light
+            let key = |light| {
+                ShaderKey::new(&object.look, Contribution::First(light), self.is_parallel())
+            };
+            let light = light
                 .filter(|&light| self.unlit_reason(light, index).is_none())
-                .map(|light| LightKey::of(&self.lights[light as usize], ShadowLookup::None));
-            draws.add(
-                index,
-                object,
-                ShaderKey::new(&object.look, Contribution::First(key), self.is_parallel()),
-            );
+                .map(|light| LightKey::of(&self.lights[light as usize], shadow));
+            if light.is_some() && has_volumes {
+                draws.add(index, object, key(light), Pixels::Lit);
+                shadowed.add(index, object, key(None), Pixels::Shadowed);
+            } else {
+                draws.add(index, object, key(light), Pixels::All);
+            }
+        }
+        let mut draws = draws.list;
+        draws.extend(shadowed.list);
+        if has_depth {
+            // Of surfaces in one place the first is seen, whether nearest wins or last.
+            draws.reverse();
         }
         Pass {
-            kind: PassKind::First { light },
-            draws: draws.list,
+            kind: PassKind::First {
+                light,
+                shadow,
+                has_depth,
+            },
+            draws,
             volumes: Vec::new(),
             scissor: None,
             skipped: counts.list(),
         }
     }
 
-    fn light_passes(&self, need: Needed, passes: &mut Vec<Pass>) {
+    fn light_passes(&self, mut need: Needed, passes: &mut Vec<Pass>) {
         let light = need.light;
-        let world_light = &self.lights[light as usize];
-        let is_directional = matches!(world_light.shape, LightShape::Directional { .. });
-        let (shadow_pass, shadow) = match self.settings.shadows {
-            _ if !need.casts => (None, ShadowLookup::None),
-            Shadows::None => (None, ShadowLookup::None),
-            Shadows::Volumes { .. } => (Some(PassKind::Volumes { light }), ShadowLookup::None),
-            Shadows::Map { .. } if is_directional => {
-                (Some(PassKind::Map { light }), ShadowLookup::Map)
-            }
-            Shadows::Map { .. } => (Some(PassKind::Map { light }), ShadowLookup::CubeMap),
-            Shadows::Rays => (Some(PassKind::Rays { light }), ShadowLookup::Mask),
-        };
+        let (shadow_pass, shadow) = self.shadow_pass(&mut need);
+        let kind = shadow_pass.as_ref().map(|pass| pass.kind);
+        let has_volumes = matches!(kind, Some(PassKind::Volumes { .. }));
+        passes.extend(shadow_pass);
+        let key = LightKey::of(&self.lights[light as usize], shadow);
         let mut draws = Draws::default();
         let mut counts = Counts::default();
         for index in self.opaque() {
@@ -337,28 +410,14 @@ impl Planner<'_> {
                 continue;
             }
             let object = self.object(index);
-            let key = LightKey::of(world_light, shadow);
-            draws.add(
-                index,
-                object,
-                ShaderKey::new(&object.look, Contribution::Light(key), self.is_parallel()),
-            );
-        }
-        let tests_stencil = matches!(shadow_pass, Some(PassKind::Volumes { .. }));
-        if let Some(kind) = shadow_pass {
-            passes.push(Pass {
-                kind,
-                draws: Vec::new(),
-                volumes: need.volumes,
-                scissor: need.scissor,
-                skipped: need.skipped,
-            });
+            let key = ShaderKey::new(&object.look, Contribution::Light(key), self.is_parallel());
+            draws.add(index, object, key, Pixels::Lit);
         }
         passes.push(Pass {
             kind: PassKind::Light {
                 light,
                 shadow,
-                tests_stencil,
+                has_volumes,
             },
             draws: draws.list,
             volumes: Vec::new(),
@@ -393,6 +452,7 @@ impl Planner<'_> {
                     Contribution::All,
                     self.is_parallel(),
                 ),
+                pixels: Pixels::All,
             })
             .collect();
         (!draws.is_empty()).then(|| Pass {

@@ -20,11 +20,15 @@ pub const EXTRACT: &str = include_str!("wgsl/extract.wgsl");
 /// A gradient behind everything.
 pub const BACKGROUND: &str = include_str!("wgsl/background.wgsl");
 
-/// The text of a surface shader; its entry points are `place` and `shade`.
+/// The text of a surface shader; its entry points are `place` and, if it has colours, `shade`.
 pub fn emit(key: &ShaderKey) -> String {
     let mut text = String::from(TYPES);
     bindings(&mut text, key);
-    varyings(&mut text, key);
+    if key.shade == Shade::Nothing {
+        text.push_str(PLACE_ALONE);
+    } else {
+        varyings(&mut text, key);
+    }
     match key.primitive {
         Primitive::Triangles => place_triangles(&mut text, key),
         Primitive::Lines => place_strokes(&mut text, key, LINE),
@@ -42,7 +46,9 @@ pub fn emit(key: &ShaderKey) -> String {
             }
         }
     }
-    shade(&mut text, key);
+    if key.shade != Shade::Nothing {
+        shade(&mut text, key);
+    }
     text
 }
 
@@ -76,6 +82,12 @@ pub fn emit_rays(samples: u32) -> String {
 /// Where the four samples of a pixel are: the standard pattern, which all interfaces share.
 const STANDARD_PLACES: &str = "(array(vec2f(0.375, 0.125), vec2f(0.875, 0.375), \
                                vec2f(0.125, 0.625), vec2f(0.625, 0.875))[sample])";
+
+const PLACE_ALONE: &str = "
+struct Varying {
+    @builtin(position) @invariant clip: vec4f,
+}
+";
 
 const POWER: &str = "
 // x^e for x >= 0, with 0^0 = 1.
@@ -234,11 +246,15 @@ fn place_triangles(text: &mut String, key: &ShaderKey) {
     text.push_str(
         ") -> Varying {
     var out: Varying;
-    out.rel = rel_of(instance, position);
-    out.clip = clip_of(out.rel);
-    out.ids = instances[instance].ids.xyz;
+    let rel = rel_of(instance, position);
+    out.clip = clip_of(rel);
 ",
     );
+    if key.shade == Shade::Nothing {
+        text.push_str("    return out;\n}\n");
+        return;
+    }
+    text.push_str("    out.rel = rel;\n    out.ids = instances[instance].ids.xyz;\n");
     if key.has_normals() {
         let _ = writeln!(text, "    out.normal = {NORMAL};");
     }
@@ -258,12 +274,15 @@ fn place_strokes(text: &mut String, key: &ShaderKey, body: &str) {
     text.push_str(body);
     text.push_str(
         "    var out: Varying;
-    out.rel = rel;
     // A little nearer, or a line on a face would be drawn in pieces: 2^-13 of the distance.
     out.clip = vec4f(clip.xy, clip.z + 0.0001220703125 * clip.z, clip.w);
-    out.ids = instances[instance].ids.xyz;
 ",
     );
+    if key.shade == Shade::Nothing {
+        text.push_str("    return out;\n}\n");
+        return;
+    }
+    text.push_str("    out.rel = rel;\n    out.ids = instances[instance].ids.xyz;\n");
     if key.has_normals() {
         let _ = writeln!(
             text,
