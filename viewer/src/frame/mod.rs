@@ -5,6 +5,7 @@
 mod cull;
 mod far_plane;
 mod lists;
+mod needs;
 mod plan;
 mod planner;
 mod scissor;

@@ -48,7 +48,7 @@ pub fn surface(
 ) -> wgpu::RenderPipeline {
     let group_3 = match shader.light().map(|light| light.shadow) {
         Some(ShadowLookup::Map | ShadowLookup::CubeMap) => Some(&layouts.shadow_map),
-        Some(ShadowLookup::Mask) => Some(&layouts.shadow_mask),
+        Some(ShadowLookup::Mask | ShadowLookup::Stencil) => Some(&layouts.shadow_mask),
         _ => None,
     };
     let group_2 = match (shader.primitive, shader.texture) {

@@ -219,12 +219,7 @@ impl Recorder<'_> {
         pass
     }
 
-    fn surfaces(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        pass: &Pass,
-        light: u32,
-    ) -> PassReport {
+    fn surfaces(&self, encoder: &mut wgpu::CommandEncoder, pass: &Pass, light: u32) -> PassReport {
         let store = wgpu::StoreOp::Store;
         let begins = matches!(
             pass.kind,
@@ -364,6 +359,7 @@ impl Recorder<'_> {
                 self.renderer.maps.get(&light).map(|map| &map.group)
             }
             ShadowLookup::Mask => self.renderer.rays.as_ref().map(|rays| &rays.mask_group),
+            ShadowLookup::Stencil => self.renderer.stencil.as_ref(),
         }
     }
 }

@@ -205,6 +205,11 @@ fn in_map(rel: vec3f, face: u32) -> f32 {
 @group(3) @binding(0) var shadow_mask: texture_2d<u32>;
 "
         }
+        Some(ShadowLookup::Stencil) => {
+            "
+@group(3) @binding(0) var shadow_stencil: texture_2d<u32>;
+"
+        }
         _ => "",
     });
 }
@@ -363,6 +368,13 @@ fn is_lit_at(in: Varying, sample: u32) -> f32 {
 }
 ",
         ),
+        ShadowLookup::Stencil => text.push_str(
+            "
+fn is_lit_at(in: Varying, sample: u32) -> f32 {
+    return select(1.0, 0.0, textureLoad(shadow_stencil, vec2i(in.clip.xy), 0).x != 0u);
+}
+",
+        ),
         ShadowLookup::Map => text.push_str(
             "
 fn is_lit_at(in: Varying, sample: u32) -> f32 {
@@ -430,7 +442,7 @@ fn lights_added(text: &mut String, key: &ShaderKey, shadow: ShadowLookup) {
     let visible = match shadow {
         ShadowLookup::None => "",
         ShadowLookup::Mask => "is_lit_at(in, sample) * ",
-        ShadowLookup::Map | ShadowLookup::CubeMap => "is_lit_at(in, 0u) * ",
+        ShadowLookup::Map | ShadowLookup::CubeMap | ShadowLookup::Stencil => "is_lit_at(in, 0u) * ",
     };
     let ids = match key.contribution {
         Contribution::All => ", in.ids.yz",

@@ -32,6 +32,8 @@ pub enum ShadowLookup {
     CubeMap,
     /// A mask with a bit for each sample of a pixel.
     Mask,
+    /// What shadow volumes left in the stencil, of one sample a pixel.
+    Stencil,
 }
 
 /// One light in a shader.
@@ -267,6 +269,7 @@ fn contributions(is_transparent: bool) -> Vec<Contribution> {
                 ShadowLookup::Map,
                 ShadowLookup::CubeMap,
                 ShadowLookup::Mask,
+                ShadowLookup::Stencil,
             ] {
                 let light = LightKey {
                     form,
