@@ -8,6 +8,7 @@ mod decimal;
 mod include;
 mod names;
 mod node;
+mod swept;
 mod upgrade;
 mod value;
 
