@@ -246,7 +246,8 @@ fn derivatives_are_limits_of_differences() {
 #[test]
 fn round_shapes_are_round_and_have_their_area() {
     let distance_from_ring = |p: DVec3| DVec3::new(p.truncate().length() - 3.0, p.z, 0.0).length();
-    let rows: [(&str, Net, f64, &dyn Fn(DVec3) -> f64); 2] = [
+    type Row<'a> = (&'a str, Net, f64, &'a dyn Fn(DVec3) -> f64);
+    let rows: [Row<'_>; 2] = [
         ("sphere", sphere(), 4.0 * PI, &|p: DVec3| p.length()),
         ("torus", torus(), 4.0 * PI * PI * 3.0, &distance_from_ring),
     ];
@@ -501,7 +502,8 @@ fn bad_input_is_refused() {
         change(&mut net);
         Surface::new(net.points, net.u_count, net.u, net.v).err()
     };
-    let rows: [(Option<E>, &dyn Fn(&mut Net)); 16] = [
+    type Row<'a> = (Option<E>, &'a dyn Fn(&mut Net));
+    let rows: [Row<'_>; 16] = [
         (None, &|_| {}),
         (Some(E::Order), &|n| n.u.truncate(4)),
         (Some(E::Order), &|n| n.v = vec![0.0; 2]),
