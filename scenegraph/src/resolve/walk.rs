@@ -12,6 +12,7 @@ use crate::scene::{self, Placement, Scene};
 use crate::shape::{Measure, ShapeMaker};
 
 use super::builder::Builder;
+use super::profiles::Profiles;
 use super::state::State;
 use super::{ResolveOptions, not_supported, transforms};
 
@@ -65,6 +66,7 @@ pub(super) struct Walk<'g> {
     pub builder: Builder,
     pub remarks: Remarks,
     pub shapes: ShapeMaker,
+    pub profiles: Profiles,
     /// For each node whether it is the child of several.
     several_parents: Vec<bool>,
     stack: Vec<Open>,
@@ -89,6 +91,7 @@ impl<'g> Walk<'g> {
             builder,
             remarks: Remarks::default(),
             shapes: ShapeMaker::default(),
+            profiles: Profiles::default(),
             several_parents: several_parents(graph),
             stack: Vec::new(),
             frames: Vec::new(),
@@ -379,7 +382,7 @@ impl<'g> Walk<'g> {
     }
 
     /// The current transform in the world.
-    fn world(&self) -> DAffine3 {
+    pub(super) fn world(&self) -> DAffine3 {
         let frame = self.state.base.checked_sub(1).map(|i| &self.frames[i]);
         frame.map_or(self.state.relative, |f| {
             f.world_from_local * self.state.relative

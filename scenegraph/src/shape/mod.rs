@@ -11,8 +11,10 @@ mod faces;
 mod lines;
 mod measure;
 mod normals;
+mod nurbs;
 mod outline;
 mod primitives;
+mod profiles;
 mod texcoords;
 mod values;
 
@@ -22,7 +24,7 @@ use rustc_hash::FxHashMap;
 use crate::graph::NodeId;
 use crate::registry::Class;
 use crate::remarks::Remarks;
-use crate::resolve::{ColorSource, State, Style, TexCoords};
+use crate::resolve::{ColorSource, ProfileList, State, Style, TexCoords};
 use crate::scene::{Mesh, MeshId, Topology};
 
 pub use measure::Measure;
@@ -30,6 +32,7 @@ pub use measure::Measure;
 use crate::graph::Graph;
 use assemble::Assembler;
 pub(crate) use attributes::{Attributes, has_texcoords};
+pub(crate) use nurbs::{is_nurbs, is_trimmed};
 pub(crate) use primitives::is_closed;
 
 /// All that a mesh depends on.
@@ -45,6 +48,9 @@ struct MeshKey {
     ordering: crate::resolve::Ordering,
     crease_angle: u64,
     complexity: u64,
+    /// Of a surface that profiles trim: them, and their points.
+    profiles: Option<(ProfileList, Option<NodeId>)>,
+    chord: Option<u64>,
     style: Style,
     lit: bool,
 }
@@ -84,6 +90,10 @@ pub struct Job<'a> {
     pub shared: bool,
     /// Whether polygons are cut from their first corner, whatever their shape.
     pub fans: bool,
+    /// Of NURBS: the chord asked for, in the shape's own frame.
+    pub chord: Option<f64>,
+    /// Of NURBS surfaces: the profiles that trim it.
+    pub profiles: Vec<NodeId>,
 }
 
 impl ShapeMaker {
@@ -107,6 +117,8 @@ impl ShapeMaker {
             ordering: state.hints.ordering,
             crease_angle: state.hints.crease_angle_rad.to_bits(),
             complexity: state.complexity.to_bits(),
+            profiles: is_trimmed(job.class).then_some((state.profiles, state.profile_coordinates)),
+            chord: job.chord.map(f64::to_bits),
             style: job.style,
             lit: job.lit,
         }
@@ -178,6 +190,7 @@ impl ShapeMaker {
                 primitives::mesh(job, attributes)
                     .and_then(|m| outline::styled_primitive(m, job.style))
             }
+            _ if is_nurbs(job.class) => nurbs::mesh(job, attributes, remarks),
             Class::LineSet | Class::IndexedLineSet => {
                 let mut segments = lines::segments(job, attributes, remarks);
                 self.assembler
@@ -206,24 +219,25 @@ impl ShapeMaker {
 
     /// Whether shapes of this class are made here.
     pub fn knows(class: Class) -> bool {
-        matches!(
-            class,
-            Class::Cube
-                | Class::Sphere
-                | Class::Cone
-                | Class::Cylinder
-                | Class::FaceSet
-                | Class::IndexedFaceSet
-                | Class::TriangleStripSet
-                | Class::IndexedTriangleStripSet
-                | Class::QuadMesh
-                | Class::LineSet
-                | Class::IndexedLineSet
-                | Class::PointSet
-                | Class::IndexedPointSet
-                | Class::MarkerSet
-                | Class::IndexedMarkerSet
-        )
+        is_nurbs(class)
+            || matches!(
+                class,
+                Class::Cube
+                    | Class::Sphere
+                    | Class::Cone
+                    | Class::Cylinder
+                    | Class::FaceSet
+                    | Class::IndexedFaceSet
+                    | Class::TriangleStripSet
+                    | Class::IndexedTriangleStripSet
+                    | Class::QuadMesh
+                    | Class::LineSet
+                    | Class::IndexedLineSet
+                    | Class::PointSet
+                    | Class::IndexedPointSet
+                    | Class::MarkerSet
+                    | Class::IndexedMarkerSet
+            )
     }
 }
 
