@@ -24,7 +24,7 @@ mod source;
 mod text;
 mod tree;
 
-pub use binary::{ClassShape, Schema, ValueKind, ValueType};
+pub use binary::{ClassShape, Schema, ValueKind, ValueType, has_binary_form, print_binary};
 pub use diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
 pub use header::{Dialect, Encoding, Header};
 pub use limits::Limits;

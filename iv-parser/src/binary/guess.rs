@@ -1,8 +1,10 @@
-//! What can follow: where a value ends that nobody knows the type of, and what is a node.
+//! Guesses: where a value ends that nobody knows the type of, by what follows it; what is a node;
+//! and the type of a value that has none yet.
 
 use super::value::{ALL_FLAGS, IS_CONNECTED};
 use super::words::{Words, is_name};
-use super::{Frame, Reader};
+use super::{Frame, Reader, ValueKind, ValueType};
+use crate::tree::{Atom, Tree, Value};
 
 /// Lengths of single values, and of the values of lists, that are tried in this order: one, three,
 /// two, four and sixteen floats.
@@ -98,9 +100,14 @@ impl Reader<'_, '_> {
         words.left() < 4 || self.is_node(words)
     }
 
-    /// Whether the number of children stands here, and the first of them.
+    /// Whether the number of children stands here, of a node whose frame has been taken from the
+    /// stack. A 0 is one if nothing that is open goes on with it.
     pub(super) fn children_here(&self) -> bool {
-        self.are_children(self.words)
+        let mut ahead = self.words;
+        match ahead.word() {
+            Some(0) => !self.continues(self.words),
+            _ => self.are_children(self.words),
+        }
     }
 
     fn are_children(&self, mut words: Words<'_>) -> bool {
@@ -153,4 +160,43 @@ fn is_def(name: Option<&[u8]>) -> bool {
         let is_shown = |b: &u8| *b > b' ' && *b != 0x7f;
         !name.is_empty() && (is_name(name) || name.iter().all(is_shown))
     })
+}
+
+/// The type that a value of text most likely has, for a node that describes its fields.
+pub(super) fn guess_type(tree: &Tree<'_>, value: &Value) -> Option<ValueType> {
+    let of = |kind, size, is_list| {
+        Some(ValueType {
+            kind,
+            size,
+            is_list,
+        })
+    };
+    match value {
+        Value::Missing | Value::Mask(_) => None,
+        Value::Numbers {
+            numbers, bracketed, ..
+        } => {
+            let kind = match tree.ints(numbers) {
+                Some(_) => ValueKind::Int,
+                None => ValueKind::Float,
+            };
+            match tree.count(numbers) {
+                _ if *bracketed => of(kind, 1, true),
+                1 => of(kind, 1, false),
+                // There are types of two to four and of sixteen floats.
+                size @ (2..=4 | 16) => of(ValueKind::Float, size as u8, false),
+                _ => of(kind, 1, true),
+            }
+        }
+        Value::Atoms { atoms, bracketed } => {
+            let kind = match tree.atoms(*atoms).first()? {
+                Atom::String(..) => ValueKind::Text,
+                Atom::Child(_) => ValueKind::Node,
+                Atom::Number(..) => ValueKind::Float,
+                Atom::Word(b"TRUE" | b"FALSE", _) => ValueKind::Flag,
+                Atom::Word(..) => ValueKind::Text,
+            };
+            of(kind, 1, *bracketed)
+        }
+    }
 }

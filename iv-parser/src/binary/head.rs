@@ -161,8 +161,8 @@ impl<'a> Reader<'a, '_> {
     /// Behind the last field.
     pub(super) fn fields_end(&mut self, body: Body) -> Result<(), Fault> {
         self.described.truncate(body.described);
-        let is_group = body.is_group.unwrap_or_else(|| self.children_here());
         self.frames.pop();
+        let is_group = body.is_group.unwrap_or_else(|| self.children_here());
         let (node, items) = (body.node, body.items);
         if !is_group {
             self.close_node(node, items);

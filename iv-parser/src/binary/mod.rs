@@ -26,8 +26,11 @@ mod recover;
 mod schema;
 mod value;
 mod words;
+mod write;
 
+use guess::guess_type;
 pub use schema::{ClassShape, Schema, ValueKind, ValueType};
+pub use write::{has_binary_form, print_binary};
 
 use crate::diagnostic::Severity;
 use crate::header::Header;

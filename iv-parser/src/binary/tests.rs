@@ -2,11 +2,11 @@
 
 use super::{ClassShape, Schema, ValueKind, ValueType};
 use crate::header::Header;
-use crate::parse::tests::brief;
+pub(super) use crate::parse::tests::brief;
 use crate::{Limits, Parse, parse_any};
 
 /// A few classes.
-struct Known;
+pub(super) struct Known;
 
 const fn of(kind: ValueKind, size: u8, is_list: bool) -> ValueType {
     ValueType {
@@ -62,6 +62,7 @@ impl Schema for Known {
 
     fn named_type(&self, name: &[u8]) -> Option<ValueType> {
         match name {
+            b"SFInt32" => Some(of(ValueKind::Int, 1, false)),
             b"SFFloat" => Some(of(ValueKind::Float, 1, false)),
             b"MFFloat" => Some(of(ValueKind::Float, 1, true)),
             b"SFNode" => Some(of(ValueKind::Node, 1, false)),
@@ -69,12 +70,14 @@ impl Schema for Known {
         }
     }
 
-    fn name_of(&self, _: ValueType) -> Option<&'static str> {
-        None
+    fn name_of(&self, wanted: ValueType) -> Option<&'static str> {
+        let all = ["SFInt32", "SFFloat", "MFFloat", "SFNode"];
+        all.into_iter()
+            .find(|name| self.named_type(name.as_bytes()) == Some(wanted))
     }
 
-    fn default_text(&self, _: &[u8], _: &[u8], _: &Header) -> Option<&'static str> {
-        None
+    fn default_text(&self, _: &[u8], field: &[u8], _: &Header) -> Option<&'static str> {
+        (field == b"int").then_some("7")
     }
 }
 
