@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use convert::command::{atomic, model};
-use iv_parser::{Diagnostic, Dialect, Encoding, Problem, Severity, Source, SourcePos, Span, Tree};
+use iv_parser::{Diagnostic, Dialect, Limits, Problem, Severity, Source, SourcePos, Span, Tree};
 use scenegraph::RegistryLayout;
 
 use super::references;
@@ -22,7 +22,7 @@ pub struct Text<'a> {
 impl<'a> Text<'a> {
     /// Reads a text; `name` is shown in diagnostics.
     pub fn of(bytes: &'a [u8], name: &Arc<str>) -> Self {
-        let parse = iv_parser::parse(bytes);
+        let parse = iv_parser::parse_any(bytes, &RegistryLayout, &Limits::default());
         let source = Source {
             name,
             file: 0,
@@ -85,15 +85,13 @@ impl<'a> Text<'a> {
 }
 
 fn unsupported(tree: &Tree<'_>) -> Option<Problem> {
-    let what = match (tree.header.dialect, tree.header.encoding) {
-        (Dialect::Vrml2, _) => "VRML 2.0 files",
-        (_, Encoding::Binary) => "binary Inventor files",
-        _ => return None,
-    };
+    if tree.header.dialect != Dialect::Vrml2 {
+        return None;
+    }
     Some(Problem {
         severity: Severity::Error,
         code: "unsupported-format",
-        message: format!("{what} are not read by this version"),
+        message: "VRML 2.0 files are not read by this version".to_owned(),
         hint: "write the model as `#Inventor V2.1 ascii`".to_owned(),
         span: Span::default(),
     })

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::{Atom, Child, Item, Numbers, Tree, Value, parse, text_of};
 
 /// The tree in one line: `Class{field=value Child{}}`.
-fn brief(tree: &Tree<'_>) -> String {
+pub(crate) fn brief(tree: &Tree<'_>) -> String {
     let mut out = String::new();
     for &root in tree.children_of_root() {
         child(tree, root, &mut out);

@@ -9,6 +9,7 @@ mod include;
 mod names;
 mod node;
 mod swept;
+mod schema;
 mod upgrade;
 mod value;
 
@@ -16,8 +17,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use iv_parser::{
-    Child, Diagnostic, Dialect, Encoding, Layout, LineCounter, Problem, Severity, Source,
-    SourcePos, Span, Tree,
+    Child, Diagnostic, Dialect, LineCounter, Problem, Severity, Source, SourcePos, Span, Tree,
 };
 
 use rustc_hash::FxHashMap;
@@ -29,6 +29,7 @@ use crate::registry::Class;
 use include::Includes;
 use names::{Names, Reference};
 
+pub use schema::RegistryLayout;
 pub(crate) use value::read_default;
 
 /// Reads a model and all it includes, with the default limits of the parser.
@@ -65,17 +66,6 @@ pub fn load_with(
     }
 }
 
-/// Lays out printed numbers by the registry's field types.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RegistryLayout;
-
-impl Layout for RegistryLayout {
-    fn tuple_size(&self, class: &[u8], field: &[u8]) -> usize {
-        let spec = Class::from_name(class).and_then(|c| c.spec().field(field));
-        spec.map_or(0, |(_, f)| f.field_type.tuple_size())
-    }
-}
-
 struct Builder<'l> {
     nodes: Vec<Node>,
     files: Vec<SourceFile>,
@@ -89,7 +79,7 @@ impl Builder<'_> {
     /// `around` around all that is there.
     fn file(&mut self, bytes: &[u8], name: Arc<str>, folder: &Path, around: Class) -> NodeId {
         let index = self.files.len() as u32;
-        let parsed = iv_parser::parse_with(bytes, &self.limits);
+        let parsed = iv_parser::parse_any(bytes, &RegistryLayout, &self.limits);
         let header = parsed.tree.header;
         self.files.push(SourceFile {
             name: Arc::clone(&name),
@@ -100,7 +90,7 @@ impl Builder<'_> {
         let mut dropped = parsed.problems_dropped;
         let is_foreign = problems.iter().any(|p| p.code == "unsupported-format");
         let without_header = problems.iter().any(|p| p.code == "no-header");
-        let readable = header.dialect != Dialect::Vrml2 && header.encoding == Encoding::Ascii;
+        let readable = header.dialect != Dialect::Vrml2;
         // Without a header and without a single known class it is some other text.
         let nothing_known = without_header && !has_known_class(&parsed.tree);
         let readable = readable && !is_foreign && !nothing_known;
@@ -125,7 +115,7 @@ impl Builder<'_> {
             dropped = 0;
             if !is_foreign {
                 problems.clear();
-                problems.push(unreadable(header.dialect, nothing_known));
+                problems.push(unreadable(nothing_known));
             }
             self.add(Node {
                 kind: Kind::Known(Class::Separator),
@@ -176,21 +166,16 @@ fn has_known_class(tree: &Tree<'_>) -> bool {
     nodes.any(|node| Class::from_name(node.class).is_some())
 }
 
-fn unreadable(dialect: Dialect, nothing_known: bool) -> Problem {
+fn unreadable(nothing_known: bool) -> Problem {
     let (message, hint) = if nothing_known {
         (
             "this is not an Inventor file",
             "it has neither a header nor a node of a known class",
         )
-    } else if dialect == Dialect::Vrml2 {
+    } else {
         (
             "VRML 2.0 files are not read by this version",
             "write the model as Inventor or VRML 1.0",
-        )
-    } else {
-        (
-            "binary Inventor files are not read by this version",
-            "write the model as ASCII, for example with SGI's `ivcat`",
         )
     };
     Problem {
