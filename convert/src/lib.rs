@@ -13,7 +13,8 @@
 //! - what glTF cannot carry is listed in the [`Report`], and Inventor's own values are in
 //!   `extras.iv`, under the names of Inventor's fields.
 //!
-//! [`read_gltf`] is the way back, for files of others too.
+//! [`read_gltf`] is the way back, for files of others too; [`gltf_to_inventor`] goes on to Inventor
+//! text.
 //!
 //! No question of Inventor's is asked here: defaults, inheritance and bindings are resolved in the
 //! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
@@ -46,6 +47,7 @@ mod remarks;
 mod report;
 mod sound;
 mod texture;
+mod to_inventor;
 
 use std::io::Write;
 
@@ -60,6 +62,9 @@ pub use plan::Plan;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
 pub use texture::TextureLoader;
+pub use to_inventor::{
+    InventorCounts, InventorFiles, InventorOptions, Note, gltf_to_inventor, is_gltf,
+};
 
 /// Writes a scene as `.glb`, whatever container the options name. Wants a buffered stream.
 ///

@@ -171,6 +171,23 @@ pub fn read_gltf(bytes: &[u8]) -> Result<convert::Model, convert::ReadError> {
     Ok(model)
 }
 
+/// As [`read_gltf`], within the limits that the command has.
+///
+/// # Errors
+///
+/// As [`convert::read_gltf`] does.
+///
+/// # Panics
+///
+/// When a scene breaks its guarantees.
+pub fn read_gltf_within(bytes: &[u8]) -> Result<convert::Model, convert::ReadError> {
+    let limits = convert::ReadLimits::default();
+    let loader = FileLoader::default();
+    let model = convert::read_gltf(bytes, "input.glb", Path::new("."), &loader, &limits)?;
+    assert_eq!(model.scene.check(), []);
+    Ok(model)
+}
+
 /// Finds no image file.
 struct NoImages;
 

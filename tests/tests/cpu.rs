@@ -17,5 +17,6 @@ mod cpu {
     mod roundtrip;
     mod rules;
     mod samples;
+    mod to_inventor;
     mod validator;
 }

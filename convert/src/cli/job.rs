@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 
 use super::args::{Args, Format};
 use super::inputs::Input;
-use super::inventor;
+use super::{from_gltf, inventor};
 
 /// Why an input of a format that is not read failed; its diagnostic says which format it is.
 pub const UNSUPPORTED: &str = "not converted: its format is not read";
@@ -24,7 +24,10 @@ pub struct Settings {
     /// `None` if no format could be settled; no input has an output then.
     format: Option<Format>,
     options: Options,
-    search: Vec<PathBuf>,
+    /// Further folders that may be read.
+    pub search: Vec<PathBuf>,
+    /// Images go into an Inventor text.
+    pub embed: bool,
 }
 
 impl Settings {
@@ -42,6 +45,7 @@ impl Settings {
                 ..Options::default()
             },
             search: args.search.clone(),
+            embed: args.embed,
         }
     }
 }
@@ -109,7 +113,7 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
     };
     outcome.failure = target
         .and_then(|(path, format)| match format {
-            Format::Iv => to_inventor(&mut outcome, path),
+            Format::Iv => to_inventor(&mut outcome, path, settings),
             Format::Glb | Format::Gltf => to_gltf(&mut outcome, path, settings),
         })
         .err();
@@ -117,9 +121,12 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
     outcome
 }
 
-fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
+fn to_inventor(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<(), String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
+    if convert::is_gltf(&bytes) {
+        return from_gltf::to_inventor(outcome, &bytes, path, settings);
+    }
     let name: Arc<str> = outcome.input.display().to_string().into();
     let text = inventor::Text::of(&bytes, &name);
     outcome.diagnostics.clone_from(&text.diagnostics);
@@ -165,6 +172,9 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
 fn resolved(outcome: &mut Outcome, files: &FileLoader) -> Result<Resolved, String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
+    if convert::is_gltf(&bytes) {
+        return Err(from_gltf::IS_GLTF.to_owned());
+    }
     let mut graph = model::graph(&bytes, &outcome.input, files);
     drop(bytes);
     outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
