@@ -45,6 +45,7 @@ mod plan;
 mod read;
 mod remarks;
 mod report;
+mod round_trip;
 mod sound;
 mod texture;
 mod to_inventor;
@@ -61,6 +62,7 @@ pub use pixels::Pixels;
 pub use plan::Plan;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
+pub use round_trip::{Recorder, write_file_with_source, write_glb_with_source};
 pub use texture::TextureLoader;
 pub use to_inventor::{
     InventorCounts, InventorFiles, InventorOptions, Note, gltf_to_inventor, is_gltf,

@@ -17,6 +17,7 @@ mod cpu {
     mod roundtrip;
     mod rules;
     mod samples;
+    mod source_back;
     mod to_inventor;
     mod validator;
 }

@@ -84,6 +84,12 @@ pub struct Args {
     #[arg(long)]
     pub no_extras: bool,
 
+    /// Puts the source into the output too, so that `ivconvert x.glb -o x.iv` gives it back byte for
+    /// byte, with what was edited in between. The output grows by about the compressed length of the
+    /// source and a third; the conversion takes twice as long
+    #[arg(long, conflicts_with = "no_extras")]
+    pub round_trip: bool,
+
     /// Puts images into an Inventor text made of glTF, instead of files beside it
     #[arg(long)]
     pub embed: bool,
@@ -94,7 +100,7 @@ pub struct Args {
 
     /// Shows what is in the inputs and writes no files
     #[arg(long, conflicts_with_all = [
-        "output", "out_dir", "format", "report", "timings", "strict", "no_extras",
+        "output", "out_dir", "format", "report", "timings", "strict", "no_extras", "round_trip", "embed",
     ])]
     pub info: bool,
 

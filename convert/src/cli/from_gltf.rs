@@ -34,10 +34,11 @@ pub fn to_inventor(
         .map_err(|error| error.to_string())?;
     atomic::make_folder_of(path)?;
     let mut written = 0;
-    for (name, bytes) in &made.images {
-        let image = folder.join(name);
-        written += atomic::write(&image, |out| out.write_all(bytes))
-            .map_err(|error| atomic::cannot_write(&image, &error))?;
+    for (name, bytes) in &made.beside {
+        let file = folder.join(name);
+        atomic::make_folder_of(&file)?;
+        written += atomic::write(&file, |out| out.write_all(bytes))
+            .map_err(|error| atomic::cannot_write(&file, &error))?;
     }
     written += atomic::write(path, |out| out.write_all(&made.text))
         .map_err(|error| atomic::cannot_write(path, &error))?;
@@ -48,7 +49,7 @@ pub fn to_inventor(
         "meshes": counts.meshes,
         "instances": counts.instances,
         "materials": counts.materials,
-        "textures": made.images.len(),
+        "files": made.beside.len(),
         "lights": counts.lights,
         "cameras": counts.cameras,
     });

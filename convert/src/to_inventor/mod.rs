@@ -11,6 +11,7 @@ use std::sync::Arc;
 use scenegraph::{Loader, SceneText, write_scene};
 
 use crate::read::{Model, ReadError, ReadLimits, read_gltf};
+use crate::round_trip::{self, Back};
 use images::Images;
 
 /// How Inventor text is written.
@@ -27,12 +28,31 @@ pub struct InventorOptions {
 pub struct InventorFiles {
     /// The text.
     pub text: Vec<u8>,
-    /// Images by the name that the text has for them, none of which is there yet.
-    pub images: Vec<(String, Arc<[u8]>)>,
+    /// Images and included texts by the name that the text has for them, with `/` for folders; none
+    /// of them is there yet.
+    pub beside: Vec<(String, Arc<[u8]>)>,
     /// What is to be said, most important first.
     pub notes: Vec<Note>,
     /// Sizes of the model.
     pub counts: InventorCounts,
+}
+
+impl InventorFiles {
+    /// Adds a note.
+    pub(crate) fn note(
+        &mut self,
+        code: &'static str,
+        message: String,
+        hint: &'static str,
+        is_loss: bool,
+    ) {
+        self.notes.push(Note {
+            code,
+            message,
+            hint,
+            is_loss,
+        });
+    }
 }
 
 /// Something to be said about a conversion to Inventor.
@@ -81,6 +101,43 @@ pub fn gltf_to_inventor(
     existing: &dyn Fn(&str) -> Option<Vec<u8>>,
     options: &InventorOptions,
 ) -> Result<InventorFiles, ReadError> {
+    let input = Input {
+        bytes,
+        name,
+        beside,
+        loader,
+        existing,
+        options,
+    };
+    let why = match round_trip::back(&input)? {
+        Back::Source(files) => return Ok(files),
+        Back::No(why) => why,
+    };
+    let mut files = anew(&input)?;
+    files.notes.extend(why);
+    Ok(files)
+}
+
+/// What is asked for.
+pub(crate) struct Input<'a> {
+    pub(crate) bytes: &'a [u8],
+    pub(crate) name: &'a str,
+    pub(crate) beside: &'a Path,
+    pub(crate) loader: &'a dyn Loader,
+    pub(crate) existing: &'a dyn Fn(&str) -> Option<Vec<u8>>,
+    pub(crate) options: &'a InventorOptions,
+}
+
+/// Text of what the file shows, whatever it was made of.
+fn anew(input: &Input<'_>) -> Result<InventorFiles, ReadError> {
+    let &Input {
+        bytes,
+        name,
+        beside,
+        loader,
+        existing,
+        options,
+    } = input;
     let Model {
         scene, warnings, ..
     } = read_gltf(bytes, name, beside, loader, &options.limits)?;
@@ -111,7 +168,7 @@ pub fn gltf_to_inventor(
     });
     files.notes.extend(left_out);
     files.notes.append(&mut images.notes);
-    files.images = images.files;
+    files.beside = images.files;
     if lit_by_more > 0 {
         files.notes.push(Note {
             code: "light-scope",

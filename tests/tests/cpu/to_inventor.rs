@@ -65,7 +65,7 @@ fn check(model: &Model) -> Result<(), String> {
     {
         return Err(note.message.clone());
     }
-    let images = made.images.iter();
+    let images = made.beside.iter();
     let files = Files(images.map(|(n, b)| (n.clone(), b.to_vec())).collect());
     let got = scene_of(&made.text, &files)?;
     let lit_by_more = made.notes.iter().any(|n| n.code == "light-scope");
