@@ -87,11 +87,22 @@ impl<'s> Hierarchy<'s> {
         builder.finish()
     }
 
+    /// Whether there is nothing to write.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.roots.is_empty()
+    }
+
     /// `scenes` and `nodes`; gives the number of nodes. Children follow their parents, and those
     /// of one parent stand together.
-    pub(crate) fn write(&self, json: &mut Json, scene: &Scene, with_extras: bool) -> usize {
+    pub(crate) fn write(
+        &self,
+        json: &mut Json,
+        scene: &Scene,
+        with_extras: bool,
+        source: Option<&str>,
+    ) -> usize {
         // A scene without nodes is legal, but readers refuse it.
-        if self.roots.is_empty() {
+        if self.is_empty() {
             return 0;
         }
         json.key("scene").u64(0);
@@ -99,7 +110,7 @@ impl<'s> Hierarchy<'s> {
             json.object(|json| {
                 json.array_unless_empty("nodes", 0..self.roots.len(), Json::usize);
                 if with_extras {
-                    extras::scene(json, scene);
+                    extras::scene(json, scene, source);
                 }
             });
         });

@@ -13,7 +13,8 @@
 //! - what glTF cannot carry is listed in the [`Report`], and Inventor's own values are in
 //!   `extras.iv`, under the names of Inventor's fields.
 //!
-//! [`read_gltf`] is the way back, for files of others too.
+//! [`read_gltf`] is the way back, for files of others too; [`gltf_to_inventor`] goes on to Inventor
+//! text.
 //!
 //! No question of Inventor's is asked here: defaults, inheritance and bindings are resolved in the
 //! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
@@ -44,8 +45,10 @@ mod plan;
 mod read;
 mod remarks;
 mod report;
+mod round_trip;
 mod sound;
 mod texture;
+mod to_inventor;
 
 use std::io::Write;
 
@@ -59,7 +62,11 @@ pub use pixels::Pixels;
 pub use plan::Plan;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
+pub use round_trip::{Recorder, write_file_with_source, write_glb_with_source};
 pub use texture::TextureLoader;
+pub use to_inventor::{
+    InventorCounts, InventorFiles, InventorOptions, Note, gltf_to_inventor, is_gltf,
+};
 
 /// Writes a scene as `.glb`, whatever container the options name. Wants a buffered stream.
 ///

@@ -1,5 +1,7 @@
 //! What the caller can choose: plain data.
 
+use std::sync::Arc;
+
 /// The form of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Container {
@@ -21,6 +23,9 @@ pub struct Options {
     /// Largest length of one `.bin`; what is more goes into further ones. Web loaders and 32-bit
     /// readers fail beyond 32 bits.
     pub max_bin_bytes: u64,
+    /// JSON that goes into `extras.iv.source` of the scene as it is; see
+    /// [`write_file_with_source`](crate::write_file_with_source).
+    pub source: Option<Arc<str>>,
 }
 
 impl Default for Options {
@@ -30,6 +35,7 @@ impl Default for Options {
             extras: true,
             max_glb_bytes: u64::from(u32::MAX),
             max_bin_bytes: u64::from(u32::MAX),
+            source: None,
         }
     }
 }

@@ -108,6 +108,7 @@ impl<'s> Plan<'s> {
     /// The glTF text, and the number of its nodes; `uri_of` names the files of the buffers.
     pub(crate) fn json(&self, uri_of: impl Fn(usize) -> Option<String>) -> (Vec<u8>, usize) {
         let with_extras = self.options.extras;
+        let source = self.options.source.as_deref();
         // About what a node and an accessor take, so that the text need not move often.
         let guess = 1024 + 160 * self.scene.instances.len() + 170 * self.layout.accessors.len();
         let mut json = Json::with_capacity(guess);
@@ -118,12 +119,12 @@ impl<'s> Plan<'s> {
                 json.key("generator")
                     .str(concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")));
                 if with_extras {
-                    extras::asset(json);
+                    extras::asset(json, source.filter(|_| self.hierarchy.is_empty()));
                 }
             });
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
             self.write_lights(json);
-            nodes = self.hierarchy.write(json, self.scene, with_extras);
+            nodes = self.hierarchy.write(json, self.scene, with_extras, source);
             json.array_unless_empty("cameras", &self.scene.cameras, |json, camera| {
                 camera::write(json, camera, self.bounds.as_ref(), with_extras);
             });

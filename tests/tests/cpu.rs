@@ -18,5 +18,7 @@ mod cpu {
     mod rules;
     mod samples;
     mod swept;
+    mod source_back;
+    mod to_inventor;
     mod validator;
 }

@@ -6,6 +6,7 @@
 //! Exit codes: 0 done, 1 done but not everything came over (with `--strict`), 2 something failed.
 
 mod args;
+mod from_gltf;
 mod info;
 mod inputs;
 mod inventor;

@@ -112,7 +112,7 @@ pub(crate) fn data_uri(uri: &str) -> Option<Option<Vec<u8>>> {
 }
 
 /// RFC 4648, the standard alphabet; padding may be missing.
-fn base64(text: &[u8]) -> Option<Vec<u8>> {
+pub(crate) fn base64(text: &[u8]) -> Option<Vec<u8>> {
     let padding = text.iter().rev().take_while(|&&b| b == b'=').count();
     let digits = &text[..text.len() - padding];
     let mut bytes = Vec::with_capacity(digits.len() / 4 * 3 + 2);

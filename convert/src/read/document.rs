@@ -108,6 +108,24 @@ impl<'b> Document<'b> {
         }
         Ok(Self { root, exact, bin })
     }
+
+    /// Forgets all that is not glTF's.
+    pub(crate) fn strip_extras(&mut self) {
+        let root = &mut self.root;
+        root.asset.extras = None;
+        root.scenes.iter_mut().for_each(|scene| scene.extras = None);
+        root.nodes.iter_mut().for_each(|node| node.extras = None);
+        root.materials.iter_mut().for_each(|m| m.extras = None);
+        root.textures.iter_mut().for_each(|t| t.extras = None);
+        root.cameras.iter_mut().for_each(|c| c.extras = None);
+        let lights = root.extensions.as_mut();
+        if let Some(lights) = lights.and_then(|e| e.khr_lights_punctual.as_mut()) {
+            lights
+                .lights
+                .iter_mut()
+                .for_each(|light| light.extras = None);
+        }
+    }
 }
 
 #[derive(Deserialize)]

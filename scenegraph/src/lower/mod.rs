@@ -8,8 +8,8 @@ mod decimal;
 mod include;
 mod names;
 mod node;
-mod swept;
 mod schema;
+mod swept;
 mod upgrade;
 mod value;
 
