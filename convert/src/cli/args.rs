@@ -6,6 +6,8 @@ use std::thread;
 
 use clap::{Parser, ValueEnum};
 
+use super::choices::Choices;
+
 const USAGE: &str = "\
 ivconvert [OPTIONS] <INPUT>...
        ivconvert --info [--json] <INPUT>...";
@@ -82,13 +84,16 @@ pub struct Args {
     #[arg(long)]
     pub no_extras: bool,
 
+    #[command(flatten)]
+    pub choices: Choices,
+
     /// Prints errors only
     #[arg(short, long)]
     pub quiet: bool,
 
     /// Shows what is in the inputs and writes no files
     #[arg(long, conflicts_with_all = [
-        "output", "out_dir", "format", "report", "timings", "strict", "no_extras",
+        "output", "out_dir", "format", "report", "timings", "strict", "no_extras", "Choices",
     ])]
     pub info: bool,
 
