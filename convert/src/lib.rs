@@ -1,6 +1,6 @@
 //! Open Inventor to glTF 2.0.
 //!
-//! [`Scene`] in, `.glb` or `.gltf` out. Two passes: a [`Plan`] decides
+//! [`Scene`] in, `.glb` or `.gltf` out. Two passes: a plan decides
 //! everything and measures it, then the output is streamed from the scene's own arrays, so that
 //! memory holds little more than the scene and the JSON text.
 //!
@@ -26,10 +26,12 @@ mod bounds;
 mod camera;
 mod color;
 pub mod command;
+mod compress;
 mod container;
 mod error;
 mod extras;
 mod file;
+mod formats;
 mod frame;
 mod hierarchy;
 mod image;
@@ -40,8 +42,10 @@ mod loss;
 mod material;
 mod mesh;
 mod options;
+mod parallel;
 mod pixels;
 mod plan;
+mod prepare;
 mod read;
 mod remarks;
 mod report;
@@ -52,14 +56,15 @@ mod to_inventor;
 
 use std::io::Write;
 
+use plan::Plan;
+use prepare::Prepared;
 use scenegraph::scene::Scene;
 
 pub use error::Error;
 pub use file::write_file;
 pub use loss::{Effect, Loss, LossKind, losses_markdown};
-pub use options::{Container, Options};
+pub use options::{Container, Options, Quantize, Weld};
 pub use pixels::Pixels;
-pub use plan::Plan;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
 pub use round_trip::{Recorder, write_file_with_source, write_glb_with_source};
@@ -84,7 +89,8 @@ pub fn write_glb(
         container: Container::Glb,
         ..options.clone()
     };
-    Plan::new(scene, &options, textures)?.write_glb(out)
+    let prepared = Prepared::new(scene, &options)?;
+    Plan::new(&prepared, &options, textures)?.write_glb(out)
 }
 
 /// Writes a scene as `.gltf` text and one `.bin`, whatever container the options name. `bin_uri`
@@ -107,7 +113,8 @@ pub fn write_gltf(
         container: Container::GltfBin,
         ..options.clone()
     };
-    let plan = Plan::new(scene, &options, textures)?;
+    let prepared = Prepared::new(scene, &options)?;
+    let plan = Plan::new(&prepared, &options, textures)?;
     match plan.layout.buffers.len() {
         0 => {}
         1 => plan.write_buffer(0, bin_out)?,

@@ -17,8 +17,8 @@ mod cpu {
     mod roundtrip;
     mod rules;
     mod samples;
-    mod swept;
     mod source_back;
+    mod swept;
     mod to_inventor;
     mod validator;
 }

@@ -6,6 +6,8 @@ use std::thread;
 
 use clap::{Parser, ValueEnum};
 
+use super::choices::Choices;
+
 const USAGE: &str = "\
 ivconvert [OPTIONS] <INPUT>...
        ivconvert --info [--json] <INPUT>...";
@@ -93,6 +95,8 @@ pub struct Args {
     /// Puts images into an Inventor text made of glTF, instead of files beside it
     #[arg(long)]
     pub embed: bool,
+    #[command(flatten)]
+    pub choices: Choices,
 
     /// Prints errors only
     #[arg(short, long)]
@@ -101,6 +105,7 @@ pub struct Args {
     /// Shows what is in the inputs and writes no files
     #[arg(long, conflicts_with_all = [
         "output", "out_dir", "format", "report", "timings", "strict", "no_extras", "round_trip", "embed",
+        "Choices",
     ])]
     pub info: bool,
 

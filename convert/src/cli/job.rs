@@ -34,18 +34,21 @@ pub struct Settings {
 
 impl Settings {
     /// As the user wants it.
-    pub fn of(args: &Args) -> Self {
+    pub fn of(args: &Args, inputs: usize) -> Self {
         let format = args.format().ok();
+        let options = Options {
+            container: match format {
+                Some(Format::Gltf) => Container::GltfBin,
+                _ => Container::Glb,
+            },
+            extras: !args.no_extras,
+            // Processors that no input takes for itself.
+            threads: (args.jobs() / inputs.max(1)).max(1),
+            ..Options::default()
+        };
         Self {
             format,
-            options: Options {
-                container: match format {
-                    Some(Format::Gltf) => Container::GltfBin,
-                    _ => Container::Glb,
-                },
-                extras: !args.no_extras,
-                ..Options::default()
-            },
+            options: args.choices.apply(options),
             search: args.search.clone(),
             round_trip: args.round_trip,
             embed: args.embed,

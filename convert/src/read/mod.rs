@@ -11,6 +11,7 @@ mod accessor;
 mod budget;
 mod buffers;
 mod camera;
+mod compressed;
 mod document;
 mod error;
 mod frame;
