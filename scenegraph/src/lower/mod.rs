@@ -5,9 +5,11 @@
 //! graph correspond one to one, so no traversal is needed; only what upgrading adds comes behind.
 
 mod decimal;
+mod expand;
 mod include;
 mod names;
 mod node;
+mod proto;
 mod upgrade;
 mod value;
 
@@ -15,7 +17,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use iv_parser::{
-    Child, Diagnostic, Dialect, Encoding, Layout, LineCounter, Problem, Severity, Source,
+    Child, Diagnostic, Dialect, Encoding, Form, Layout, LineCounter, Problem, Severity, Source,
     SourcePos, Span, Tree,
 };
 
@@ -25,8 +27,10 @@ use crate::graph::{Graph, Kind, Node, NodeId, SourceFile};
 use crate::loader::Loader;
 use crate::registry::Class;
 
+use expand::Expansion;
 use include::Includes;
-use names::{Names, Reference};
+use names::{Names, Reference, Scope};
+use proto::Protos;
 
 pub(crate) use value::read_default;
 
@@ -51,11 +55,13 @@ pub fn load_with(
         files: Vec::new(),
         diagnostics: Vec::new(),
         includes: Includes::new(loader),
+        protos: Protos::default(),
+        expansion: Expansion::default(),
         limits: *limits,
     };
     let root = builder.file(bytes, name.into(), folder, Class::Separator);
     builder.includes.know_root(name, folder, root);
-    builder.load_includes();
+    builder.complete();
     Graph {
         nodes: builder.nodes,
         root,
@@ -70,8 +76,15 @@ pub struct RegistryLayout;
 
 impl Layout for RegistryLayout {
     fn tuple_size(&self, class: &[u8], field: &[u8]) -> usize {
-        let spec = Class::from_name(class).and_then(|c| c.spec().field(field));
-        spec.map_or(0, |(_, f)| f.field_type.tuple_size())
+        let size = |class: Option<Class>| {
+            let (_, spec) = class?.spec().field(field)?;
+            Some(spec.field_type.tuple_size())
+        };
+        // Classes of both languages with the same name agree in the fields they share.
+        let inventor = size(Class::from_name(class));
+        inventor
+            .or_else(|| size(Class::from_vrml_name(class)))
+            .unwrap_or(0)
     }
 }
 
@@ -80,6 +93,8 @@ struct Builder<'l> {
     files: Vec<SourceFile>,
     diagnostics: Vec<Diagnostic>,
     includes: Includes<'l>,
+    protos: Protos,
+    expansion: Expansion,
     limits: iv_parser::Limits,
 }
 
@@ -99,7 +114,7 @@ impl Builder<'_> {
         let mut dropped = parsed.problems_dropped;
         let is_foreign = problems.iter().any(|p| p.code == "unsupported-format");
         let without_header = problems.iter().any(|p| p.code == "no-header");
-        let readable = header.dialect != Dialect::Vrml2 && header.encoding == Encoding::Ascii;
+        let readable = header.encoding == Encoding::Ascii;
         // Without a header and without a single known class it is some other text.
         let nothing_known = without_header && !has_known_class(&parsed.tree);
         let readable = readable && !is_foreign && !nothing_known;
@@ -111,12 +126,16 @@ impl Builder<'_> {
                 base: self.nodes.len() as u32,
                 lines: LineCounter::new(index),
                 owner: iv_parser::NodeId(0),
+                scope: None,
+                vrml2: header.dialect == Dialect::Vrml2,
+                routes: 0,
                 guesses: FxHashMap::default(),
                 dropped: 0,
                 problems: &mut problems,
                 builder: self,
             };
             file.nodes();
+            file.report_routes();
             let root = file.root(around);
             dropped += file.dropped;
             root
@@ -124,7 +143,7 @@ impl Builder<'_> {
             dropped = 0;
             if !is_foreign {
                 problems.clear();
-                problems.push(unreadable(header.dialect, nothing_known));
+                problems.push(unreadable(nothing_known));
             }
             self.add(Node {
                 kind: Kind::Known(Class::Separator),
@@ -175,16 +194,11 @@ fn has_known_class(tree: &Tree<'_>) -> bool {
     nodes.any(|node| Class::from_name(node.class).is_some())
 }
 
-fn unreadable(dialect: Dialect, nothing_known: bool) -> Problem {
+fn unreadable(nothing_known: bool) -> Problem {
     let (message, hint) = if nothing_known {
         (
             "this is not an Inventor file",
             "it has neither a header nor a node of a known class",
-        )
-    } else if dialect == Dialect::Vrml2 {
-        (
-            "VRML 2.0 files are not read by this version",
-            "write the model as Inventor or VRML 1.0",
         )
     } else {
         (
@@ -211,6 +225,12 @@ struct File<'b, 't, 'a, 'l> {
     lines: LineCounter,
     /// The node being added.
     owner: iv_parser::NodeId,
+    /// The PROTO it stands in.
+    scope: Scope,
+    /// The file is VRML 2.
+    vrml2: bool,
+    /// ROUTEs met so far.
+    routes: usize,
     /// Hints for the unknown classes met so far.
     guesses: FxHashMap<String, String>,
     /// Problems that were not kept.
@@ -221,6 +241,7 @@ struct File<'b, 't, 'a, 'l> {
 
 impl<'a> File<'_, '_, 'a, '_> {
     fn root(&mut self, around: Class) -> NodeId {
+        self.scope = None;
         let roots = self.tree.children_of_root().to_vec();
         let children: Vec<NodeId> = roots.iter().filter_map(|&c| self.child(c)).collect();
         if let [only] = children[..]
@@ -254,6 +275,7 @@ impl<'a> File<'_, '_, 'a, '_> {
     fn child(&mut self, child: Child<'a>) -> Option<NodeId> {
         match child {
             Child::Null => None,
+            Child::Node(id) if self.tree.node(id).form != Form::Node => None,
             Child::Node(id) => Some(NodeId(self.base + id.0)),
             Child::Use(name, span) => self.reference(name, span),
         }
@@ -261,7 +283,7 @@ impl<'a> File<'_, '_, 'a, '_> {
 
     fn reference(&mut self, name: &[u8], span: Span) -> Option<NodeId> {
         let shown = iv_parser::text_of(&name[..name.len().min(80)]);
-        let (code, message, hint) = match self.names.find(self.tree, name, span) {
+        let (code, message, hint) = match self.names.find(self.tree, name, span, self.scope) {
             Reference::Node(id) => return Some(NodeId(self.base + id.0)),
             Reference::Cycle => (
                 "cycle",

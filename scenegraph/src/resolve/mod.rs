@@ -5,11 +5,13 @@
 //! results to the builder, which shares what is equal.
 
 mod builder;
+mod for_all;
 mod lights;
 mod properties;
 mod shapes;
 mod state;
 mod transforms;
+mod vrml;
 mod walk;
 
 use std::sync::Arc;

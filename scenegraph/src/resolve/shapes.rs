@@ -8,7 +8,7 @@ use crate::scene::{
     Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
     TextureSource, Wrap,
 };
-use crate::shape::{Attributes, Job, Made, ShapeMaker, is_closed};
+use crate::shape::{Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed};
 
 use super::Geometry;
 use super::state::{Ordering, State, Style};
@@ -20,6 +20,19 @@ impl Walk<'_> {
         if !ShapeMaker::knows(class) {
             return false;
         }
+        self.shape_as(class, id, id, None);
+        true
+    }
+
+    /// Adds the shape `id`, drawn as one of `class`, or as the faces made for it, and placed and
+    /// named as the node `placed`.
+    pub(super) fn shape_as(
+        &mut self,
+        class: Class,
+        id: NodeId,
+        placed: NodeId,
+        made: Option<&MadeFaces>,
+    ) {
         let style = if self.options.like_coin {
             Style::Filled
         } else {
@@ -28,11 +41,11 @@ impl Walk<'_> {
         if style == Style::Invisible {
             let node = self.graph.node(id);
             self.left_out("shapes of the DrawStyle INVISIBLE are left out", node);
-            return true;
+            return;
         }
         // What cannot be placed is not made.
         if !self.can_place(self.graph.node(id)) {
-            return true;
+            return;
         }
         let graph = self.graph;
         let state = self.state.clone();
@@ -43,7 +56,8 @@ impl Walk<'_> {
             state: &state,
             lit: state.light_model == LightModel::Phong,
             style,
-            shared: self.is_shared(id),
+            shared: self.is_shared(id) || self.is_shared(placed),
+            made,
             fans: self.options.like_coin,
         };
         let attributes = Attributes::of(&job);
@@ -61,7 +75,10 @@ impl Walk<'_> {
                 .measure(&job, &attributes, |measure| builder.measure(measure)),
         };
         if let Some(made) = made {
-            let placement = self.place(id);
+            let mut placement = self.place(placed);
+            if placement.name.is_none() {
+                placement.name = graph.node(id).name.clone();
+            }
             let material = self.material(&job, &attributes, &made);
             let light_set = self.builder.light_set(state.lights).unwrap_or_else(|| {
                 self.remarks.warn(
@@ -80,7 +97,6 @@ impl Walk<'_> {
                 environment: state.environment_id,
             });
         }
-        true
     }
 
     fn material(
@@ -127,6 +143,9 @@ impl Walk<'_> {
     fn texture(&mut self, id: NodeId) -> TextureId {
         let graph = self.graph;
         let node = graph.node(id);
+        if node.class() != Some(Class::Texture2) {
+            return self.vrml_texture(id);
+        }
         let wrap = |field: &str| {
             if node.word(field) == "CLAMP" {
                 Wrap::Clamp

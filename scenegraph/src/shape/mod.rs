@@ -9,6 +9,7 @@ mod attributes;
 mod color;
 mod faces;
 mod lines;
+mod made;
 mod measure;
 mod normals;
 mod outline;
@@ -30,6 +31,7 @@ pub use measure::Measure;
 use crate::graph::Graph;
 use assemble::Assembler;
 pub(crate) use attributes::{Attributes, has_texcoords};
+pub(crate) use made::{Complaint, MadeFaces, elevation_grid, extrusion};
 pub(crate) use primitives::is_closed;
 
 /// All that a mesh depends on.
@@ -84,6 +86,8 @@ pub struct Job<'a> {
     pub shared: bool,
     /// Whether polygons are cut from their first corner, whatever their shape.
     pub fans: bool,
+    /// The faces of a shape that is given by rule.
+    pub made: Option<&'a MadeFaces>,
 }
 
 impl ShapeMaker {
