@@ -18,4 +18,5 @@ mod cpu {
     mod rules;
     mod samples;
     mod validator;
+    mod vrml;
 }

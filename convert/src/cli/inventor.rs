@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use convert::command::{atomic, model};
-use iv_parser::{Diagnostic, Dialect, Encoding, Problem, Severity, Source, SourcePos, Span, Tree};
+use iv_parser::{Diagnostic, Encoding, Problem, Severity, Source, SourcePos, Span, Tree};
 use scenegraph::RegistryLayout;
 
 use super::references;
@@ -85,15 +85,10 @@ impl<'a> Text<'a> {
 }
 
 fn unsupported(tree: &Tree<'_>) -> Option<Problem> {
-    let what = match (tree.header.dialect, tree.header.encoding) {
-        (Dialect::Vrml2, _) => "VRML 2.0 files",
-        (_, Encoding::Binary) => "binary Inventor files",
-        _ => return None,
-    };
-    Some(Problem {
+    (tree.header.encoding == Encoding::Binary).then(|| Problem {
         severity: Severity::Error,
         code: "unsupported-format",
-        message: format!("{what} are not read by this version"),
+        message: "binary Inventor files are not read by this version".to_owned(),
         hint: "write the model as `#Inventor V2.1 ascii`".to_owned(),
         span: Span::default(),
     })

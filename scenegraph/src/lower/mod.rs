@@ -249,7 +249,12 @@ impl<'a> File<'_, '_, 'a, '_> {
         {
             return only;
         }
-        if children.is_empty() {
+        // A library of prototypes needs nothing else.
+        let is_library = |c: &Child<'_>| {
+            matches!(c, Child::Node(id)
+                if matches!(self.tree.node(*id).form, Form::Proto | Form::ExternProto))
+        };
+        if children.is_empty() && !roots.iter().any(is_library) {
             self.problem(
                 Severity::Warning,
                 "empty",

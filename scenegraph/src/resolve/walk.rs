@@ -80,12 +80,13 @@ pub(super) struct Walk<'g> {
 
 impl<'g> Walk<'g> {
     pub fn new(graph: &'g Graph, options: &'g ResolveOptions) -> Self {
-        let vrml1 = graph
-            .files
-            .first()
-            .is_some_and(|f| f.header.dialect == Dialect::Vrml1);
+        let dialect = graph.files.first().map(|f| f.header.dialect);
         let mut builder = Builder::default();
-        let state = State::new(vrml1);
+        let mut state = State::new(dialect == Some(Dialect::Vrml1));
+        if dialect == Some(Dialect::Vrml2) {
+            // Only lights bring ambient light (ISO 14772-1, 4.14).
+            state.environment.ambient_intensity = 0.0;
+        }
         builder.light_set(state.lights);
         builder.environment(&state.environment);
         Self {
