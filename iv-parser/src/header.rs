@@ -181,7 +181,7 @@ pub fn is_binary(bytes: &[u8]) -> bool {
 /// What a file without our header is, and what to do with it, if its first bytes tell.
 fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     const UNPACK: &str = "unpack it first";
-    const CONVERT: &str = "only Inventor and VRML 1.0 files are read";
+    const CONVERT: &str = "only Inventor and VRML files are read";
     const SIGNS: &[(&[u8], &str, &str)] = &[
         (b"\x1f\x8b", "a gzip archive", UNPACK),
         (b"BZh", "a bzip2 archive", UNPACK),

@@ -76,6 +76,32 @@ pub fn name(bytes: &[u8], at: usize) -> Option<usize> {
     Some(end)
 }
 
+/// The end of a VRML 2 identifier at `at`; `None` if there is none (ISO 14772-1, A.3 IdFirstChar
+/// and IdRestChars).
+pub fn vrml_name(bytes: &[u8], at: usize) -> Option<usize> {
+    let is_rest = |b: u8| {
+        !matches!(
+            b,
+            0..=b' ' | b'"' | b'#' | b'\'' | b',' | b'.' | b'[' | b'\\' | b']' | b'{' | b'}' | 0x7f
+        )
+    };
+    let is_first = |b: u8| is_rest(b) && !matches!(b, b'0'..=b'9' | b'+' | b'-');
+    is_first(*bytes.get(at)?).then_some(())?;
+    let rest = bytes[at..].iter().position(|&b| !is_rest(b));
+    Some(rest.map_or(bytes.len(), |i| at + i))
+}
+
+/// As [`skip_trivia`], for VRML 2, where a comma is white space.
+pub fn skip_vrml_trivia(bytes: &[u8], mut at: usize) -> usize {
+    loop {
+        at = skip_trivia(bytes, at);
+        if bytes.get(at) != Some(&b',') {
+            return at;
+        }
+        at += 1;
+    }
+}
+
 /// The end of an unquoted word: an enum word, a bool, or a string without quotes.
 pub fn word(bytes: &[u8], at: usize) -> usize {
     let found: IResult<&[u8], &[u8]> = take_while(|b| !ends_word(b))(&bytes[at..]);
@@ -126,6 +152,19 @@ pub fn string(bytes: &[u8], at: usize) -> (usize, usize, StringEnd) {
         } else {
             i = hit + 1;
         }
+    }
+    open_string(bytes, at)
+}
+
+/// As [`string`], for VRML 2, where a backslash takes the next character with it.
+pub fn vrml_string(bytes: &[u8], at: usize) -> (usize, usize, StringEnd) {
+    let mut i = at + 1;
+    while let Some(found) = memchr2(b'"', b'\\', bytes.get(i..).unwrap_or_default()) {
+        let hit = i + found;
+        if bytes[hit] == b'"' {
+            return (hit, hit + 1, StringEnd::Closed);
+        }
+        i = hit + 2;
     }
     open_string(bytes, at)
 }

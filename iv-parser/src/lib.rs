@@ -33,4 +33,7 @@ pub use parse::{Parse, parse, parse_any, parse_with};
 pub use print::{Layout, print};
 pub use source::{LineCounter, Problem, Source, Span};
 pub use text::{decode_string, text_of};
-pub use tree::{Atom, Child, Connection, Field, FieldId, Item, Node, NodeId, Numbers, Tree, Value};
+pub use tree::{
+    Access, Atom, Child, Connection, Declaration, Field, FieldId, Form, Item, Node, NodeId,
+    Numbers, Tree, Value,
+};

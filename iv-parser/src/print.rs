@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 use crate::header::{Dialect, Encoding};
 use crate::text::{encode_name, encode_string};
-use crate::tree::{Atom, Child, Field, Item, NodeId, Numbers, Tree, Value};
+use crate::tree::{Atom, Child, Field, FieldId, Form, Item, NodeId, Numbers, Tree, Value};
 
 /// What the printer asks about a field: how to lay out its numbers.
 pub trait Layout {
@@ -20,6 +20,7 @@ pub trait Layout {
 /// What is left to print, last first.
 enum Step<'t, 'a> {
     Body(NodeId, usize),
+    Interface(NodeId, usize),
     /// Atoms of which each so many have a comma behind them.
     Atoms(&'t [Atom<'a>], usize, usize),
     CloseList,
@@ -70,6 +71,7 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
         while let Some(step) = self.steps.pop() {
             match step {
                 Step::Body(node, next) => self.body(node, next)?,
+                Step::Interface(node, next) => self.interface(node, next)?,
                 Step::Atoms(atoms, next, group) => self.atoms(atoms, next, group)?,
                 Step::CloseList => self.out.write_all(b" ]")?,
                 Step::Tail(field) => self.tail(field)?,
@@ -98,6 +100,19 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
             }
             Child::Node(id) => {
                 let node = self.tree.node(id);
+                match node.form {
+                    Form::Node => {}
+                    Form::Route => return self.route(id),
+                    Form::Proto | Form::ExternProto => {
+                        self.out.write_all(node.class)?;
+                        self.out.write_all(b" ")?;
+                        self.out.write_all(node.def.unwrap_or_default())?;
+                        self.out.write_all(b" [\n")?;
+                        self.indent += 1;
+                        self.steps.push(Step::Interface(id, 0));
+                        return Ok(());
+                    }
+                }
                 if let Some(name) = node.def {
                     self.out.write_all(b"DEF ")?;
                     self.name(name)?;
@@ -135,19 +150,73 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
             Some(Item::Field(field)) => {
                 self.steps.push(Step::Body(id, next + 1));
                 self.steps.push(Step::EndLine);
-                let field = self.tree.field(field);
                 self.pad()?;
-                self.out.write_all(field.name)?;
-                self.steps.push(Step::Tail(field));
-                self.value(self.tree.node(id).class, field)?;
+                self.field(id, field)?;
             }
         }
         Ok(())
     }
 
+    fn field(&mut self, owner: NodeId, id: FieldId) -> io::Result<()> {
+        if let Some(declaration) = self.tree.declaration(id) {
+            self.out.write_all(declaration.access.word().as_bytes())?;
+            self.out.write_all(b" ")?;
+            self.out.write_all(declaration.field_type)?;
+            self.out.write_all(b" ")?;
+        }
+        let field = self.tree.field(id);
+        self.out.write_all(field.name)?;
+        self.steps.push(Step::Tail(field));
+        self.value(self.tree.node(owner).class, field)
+    }
+
+    /// The declarations of a prototype, then the beginning of its body, or its URL.
+    fn interface(&mut self, id: NodeId, next: usize) -> io::Result<()> {
+        let is_declared = |field: &FieldId| self.tree.declaration(*field).is_some();
+        match self.tree.items(id).get(next) {
+            Some(Item::Field(field)) if is_declared(field) => {
+                self.steps.push(Step::Interface(id, next + 1));
+                self.steps.push(Step::EndLine);
+                self.pad()?;
+                return self.field(id, *field);
+            }
+            _ => {}
+        }
+        self.indent -= 1;
+        self.pad()?;
+        self.out.write_all(b"]")?;
+        if self.tree.node(id).form == Form::Proto {
+            self.out.write_all(b" {\n")?;
+            self.indent += 1;
+            self.steps.push(Step::Body(id, next));
+        } else if let Some(Item::Field(url)) = self.tree.items(id).get(next) {
+            let field = self.tree.field(*url);
+            self.value(self.tree.node(id).class, field)?;
+        }
+        Ok(())
+    }
+
+    fn route(&mut self, id: NodeId) -> io::Result<()> {
+        let Some(Item::Field(field)) = self.tree.items(id).first() else {
+            return Ok(());
+        };
+        let field = self.tree.field(*field);
+        self.out.write_all(b"ROUTE ")?;
+        self.out.write_all(field.name)?;
+        self.out.write_all(b" TO")?;
+        self.value(b"ROUTE", field)
+    }
+
     fn value(&mut self, class: &[u8], field: &'t Field<'a>) -> io::Result<()> {
         match &field.value {
             Value::Missing => Ok(()),
+            Value::Is(range) => {
+                self.out.write_all(b" IS ")?;
+                match self.tree.atoms(*range) {
+                    [Atom::Word(word, _)] => self.out.write_all(word),
+                    _ => Ok(()),
+                }
+            }
             Value::Mask(range) => {
                 self.out.write_all(b" (")?;
                 for (i, atom) in self.tree.atoms(*range).iter().enumerate() {

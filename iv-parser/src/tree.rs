@@ -40,9 +40,75 @@ pub enum Item<'a> {
     Child(Child<'a>),
 }
 
-/// `DEF name Class { … }`.
+/// What a [`Node`] of the tree stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Form {
+    /// A node.
+    Node,
+    /// VRML 2 `PROTO def [ … ] { … }`: the declarations of its interface, then its body. The class
+    /// is `PROTO`.
+    Proto,
+    /// VRML 2 `EXTERNPROTO def [ … ] url`: the declarations, then a field `url`. The class is
+    /// `EXTERNPROTO`.
+    ExternProto,
+    /// VRML 2 `ROUTE from TO to`: a field called `from` with the word `to`. The class is `ROUTE`.
+    Route,
+}
+
+/// How others reach what a VRML 2 prototype or script declares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Access {
+    /// `field`
+    Field,
+    /// `exposedField`
+    ExposedField,
+    /// `eventIn`
+    EventIn,
+    /// `eventOut`
+    EventOut,
+}
+
+impl Access {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Field => "field",
+            Self::ExposedField => "exposedField",
+            Self::EventIn => "eventIn",
+            Self::EventOut => "eventOut",
+        }
+    }
+
+    pub(crate) fn from_word(word: &[u8]) -> Option<Self> {
+        let all = [
+            Self::Field,
+            Self::ExposedField,
+            Self::EventIn,
+            Self::EventOut,
+        ];
+        all.into_iter().find(|a| a.word().as_bytes() == word)
+    }
+
+    /// Whether it holds a value.
+    pub fn has_value(self) -> bool {
+        matches!(self, Self::Field | Self::ExposedField)
+    }
+}
+
+/// What stands before the name of a declared field: `exposedField SFColor color 1 0 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Declaration<'a> {
+    /// How it is reached.
+    pub access: Access,
+    /// Name of the field type.
+    pub field_type: &'a [u8],
+}
+
+/// `DEF name Class { … }`, or a statement of VRML 2 that stands where a node can stand.
 #[derive(Clone, Debug)]
 pub struct Node<'a> {
+    /// What it stands for.
+    pub form: Form,
     /// Class name; empty for a body that stands without one.
     pub class: &'a [u8],
     /// The name behind `DEF`, with any `+N` suffix.
@@ -101,6 +167,8 @@ pub enum Value {
     },
     /// `( A | B )`: a range of word atoms.
     Mask((u32, u32)),
+    /// VRML 2 `IS name`: a range of one word atom, the name of what a prototype declares.
+    Is((u32, u32)),
 }
 
 /// A run of numbers.
@@ -145,6 +213,8 @@ pub struct Tree<'a> {
     pub(crate) int_lists: Lists<i32>,
     pub(crate) float_lists: Lists<f64>,
     pub(crate) roots: Vec<Child<'a>>,
+    /// In order of their fields.
+    pub(crate) declarations: Vec<(FieldId, Declaration<'a>)>,
 }
 
 /// Runs at least this long can be passed on without copying: more than a value of a field that
@@ -154,6 +224,7 @@ const MANY: usize = 5;
 impl<'a> Node<'a> {
     pub(crate) fn new(class: &'a [u8], def: Option<&'a [u8]>, span: Span) -> Self {
         Self {
+            form: Form::Node,
             class,
             def,
             span,
@@ -180,6 +251,7 @@ impl<'a> Tree<'a> {
             int_lists: Lists::default(),
             float_lists: Lists::default(),
             roots: Vec::new(),
+            declarations: Vec::new(),
         }
     }
 
@@ -233,6 +305,12 @@ impl<'a> Tree<'a> {
     /// A field.
     pub fn field(&self, id: FieldId) -> &Field<'a> {
         &self.fields[id.0 as usize]
+    }
+
+    /// What declares a field, if it belongs to the interface of a VRML 2 prototype or script.
+    pub fn declaration(&self, id: FieldId) -> Option<&Declaration<'a>> {
+        let at = self.declarations.binary_search_by_key(&id.0, |d| d.0.0);
+        at.ok().map(|i| &self.declarations[i].1)
     }
 
     /// A node's body.

@@ -53,7 +53,7 @@ impl Pairs<'_, '_, '_> {
     fn node(&mut self, x: NodeId, y: NodeId) -> Option<String> {
         let (m, n): (&Node<'_>, &Node<'_>) = (self.a.node(x), self.b.node(y));
         let (items, others) = (self.a.items(x), self.b.items(y));
-        if m.class != n.class || m.def != n.def || items.len() != others.len() {
+        if m.form != n.form || m.class != n.class || m.def != n.def || items.len() != others.len() {
             return Some(format!(
                 "node {} of {} items, {} of {}",
                 text(m.class),
@@ -65,7 +65,10 @@ impl Pairs<'_, '_, '_> {
         for (item, other) in items.iter().zip(others) {
             let same = match (item, other) {
                 (Item::Child(c), Item::Child(d)) => self.child(c, d),
-                (Item::Field(f), Item::Field(g)) => self.field(self.a.field(*f), self.b.field(*g)),
+                (Item::Field(f), Item::Field(g)) => {
+                    self.a.declaration(*f) == self.b.declaration(*g)
+                        && self.field(self.a.field(*f), self.b.field(*g))
+                }
                 _ => false,
             };
             if !same {
@@ -114,7 +117,7 @@ impl Pairs<'_, '_, '_> {
                     bracketed: q,
                 },
             ) => p == q && self.atoms(*x, *y),
-            (Value::Mask(x), Value::Mask(y)) => self.atoms(*x, *y),
+            (Value::Mask(x), Value::Mask(y)) | (Value::Is(x), Value::Is(y)) => self.atoms(*x, *y),
             _ => false,
         }
     }

@@ -21,4 +21,5 @@ mod cpu {
     mod swept;
     mod to_inventor;
     mod validator;
+    mod vrml;
 }

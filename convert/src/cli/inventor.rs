@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use convert::command::{atomic, model};
-use iv_parser::{Diagnostic, Dialect, Limits, Problem, Severity, Source, SourcePos, Span, Tree};
+use iv_parser::{Diagnostic, Limits, Severity, Source, SourcePos, Tree};
 use scenegraph::RegistryLayout;
 
 use super::references;
@@ -28,12 +28,8 @@ impl<'a> Text<'a> {
             file: 0,
             bytes,
         };
-        // What the parser says about bytes of another format means nothing.
-        let (problems, dropped) = match unsupported(&parse.tree) {
-            Some(problem) => (vec![problem], 0),
-            None => (parse.problems, parse.problems_dropped),
-        };
-        let mut diagnostics = source.diagnostics(problems);
+        let dropped = parse.problems_dropped;
+        let mut diagnostics = source.diagnostics(parse.problems);
         if dropped > 0 {
             diagnostics.push(Diagnostic {
                 severity: Severity::Warning,
@@ -82,17 +78,4 @@ impl<'a> Text<'a> {
             iv_parser::print(&self.tree, &RegistryLayout, out)
         })
     }
-}
-
-fn unsupported(tree: &Tree<'_>) -> Option<Problem> {
-    if tree.header.dialect != Dialect::Vrml2 {
-        return None;
-    }
-    Some(Problem {
-        severity: Severity::Error,
-        code: "unsupported-format",
-        message: "VRML 2.0 files are not read by this version".to_owned(),
-        hint: "write the model as `#Inventor V2.1 ascii`".to_owned(),
-        span: Span::default(),
-    })
 }

@@ -25,7 +25,9 @@ pub fn left_behind(tree: &Tree<'_>, from: &Path, to: &Path) -> Vec<Problem> {
         let name = text_of(raw);
         // As the loader reads names of other systems.
         let path = name.replace('\\', "/");
-        let path = Path::new(&path);
+        // What VRML addresses inside a file stands behind `#`.
+        let path = path.split_once('#').map_or(&*path, |(file, _)| file);
+        let path = Path::new(path);
         let is_moved = path.is_relative() && from.join(path).is_file() && !to.join(path).is_file();
         if is_moved && seen.insert(raw) {
             problems.push(Problem {
@@ -48,8 +50,15 @@ fn file_names<'t, 'a>(tree: &'t Tree<'a>) -> impl Iterator<Item = &'t Atom<'a>> 
     let fields = nodes.flat_map(|id| {
         let class = tree.node(id).class;
         let includes = matches!(class, b"File" | b"SoFile" | b"WWWInline" | b"SoWWWInline");
+        // Anchors link to what need not be there.
+        let has_url = matches!(
+            class,
+            b"Inline" | b"VRMLInline" | b"ImageTexture" | b"VRMLImageTexture" | b"EXTERNPROTO"
+        );
         let names_a_file = move |name: &[u8]| {
-            matches!(name, b"filename" | b"filenames") || (includes && name == b"name")
+            matches!(name, b"filename" | b"filenames")
+                || (includes && name == b"name")
+                || has_url && name == b"url"
         };
         let fields = tree.items(id).iter().filter_map(|item| match item {
             Item::Field(field) => Some(tree.field(*field)),

@@ -14,7 +14,7 @@ fn exit_codes_and_messages() {
         )
         .model("image.iv", IMAGE)
         .model("empty.iv", "Separator { Label { label \"a\" } }")
-        .file("v2.wrl", "#VRML V2.0 utf8\nShape { }\n")
+        .file("x3d.wrl", "#X3D V3.0 utf8\nShape { }\n")
         .file("binary.iv", "#Inventor V2.1 binary  \n\0\0\0\u{1}")
         .file("folder/notes.txt", "");
     // Arguments, exit code, what the messages contain.
@@ -69,18 +69,18 @@ fn exit_codes_and_messages() {
             &["empty.iv: warning[no-geometry]", "1 converted"],
         ),
         (
-            "v2.wrl",
+            "x3d.wrl",
             2,
             &[
-                "error[unsupported-format]: VRML 2.0",
-                "v2.wrl: error: ",
+                "error[unsupported-format]: this is X3D",
+                "x3d.wrl: error: ",
                 "1 failed",
             ],
         ),
         (
-            "v2.wrl --format iv -o v2.iv",
+            "x3d.wrl --format iv -o v2.iv",
             2,
-            &["error[unsupported-format]: VRML 2.0", "1 failed"],
+            &["error[unsupported-format]: this is X3D", "1 failed"],
         ),
         (
             "binary.iv",
@@ -217,11 +217,11 @@ fn problems_beyond_the_parsers_limit_are_counted() {
     let braces = CUBE.to_owned() + &"\n}".repeat(limit + 7);
     let place = Place::new()
         .model("a.iv", &braces)
-        .file("v2.wrl", &format!("#VRML V2.0 utf8\n{braces}"));
+        .file("x3d.wrl", &format!("#X3D V3.0 utf8\n{braces}"));
     let rows = [
         ("a.iv", true),
         ("a.iv -o b.iv", true),
-        ("v2.wrl -o b.iv", false),
+        ("x3d.wrl -o b.iv", false),
     ];
     for (args, is_said) in rows {
         let run = place.run(&format!("{args} --report r.json"));

@@ -8,13 +8,13 @@ use crate::place::{CUBE, FOG, Place, Run};
 #[test]
 fn nothing_is_written_for_what_cannot_be_read_or_is_refused() {
     let place = Place::new()
-        .file("v2.wrl", "#VRML V2.0 utf8\nShape { }\n")
+        .file("x3d.wrl", "#X3D V3.0 utf8\nShape { }\n")
         .model("a.iv", CUBE)
         .model("b/a.iv", FOG);
     let before = place.files();
     // Arguments, what the messages contain.
     let rows = [
-        ("v2.wrl", "error[unsupported-format]"),
+        ("x3d.wrl", "error[unsupported-format]"),
         ("gone.iv --out-dir out", "gone.iv: error"),
         ("a.iv --format iv", "`a.iv` would be written over itself"),
         ("a.iv -o ./b/../a.iv", "would be written over itself"),

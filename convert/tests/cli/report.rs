@@ -13,8 +13,8 @@ fn a_report_holds_it_all() {
     let place = Place::new()
         .model("lost.iv", lost)
         .model("image.iv", IMAGE)
-        .file("v2.wrl", "#VRML V2.0 utf8\n");
-    let run = place.run("lost.iv gone.iv image.iv v2.wrl --report r.json");
+        .file("x3d.wrl", "#X3D V3.0 utf8\n");
+    let run = place.run("lost.iv gone.iv image.iv x3d.wrl --report r.json");
     assert_eq!(run.code, 2);
     let report = place.json("r.json");
     let column = |word: &str| lost.find(word).unwrap() + 1;

@@ -172,7 +172,7 @@ pub(super) fn guess_type(tree: &Tree<'_>, value: &Value) -> Option<ValueType> {
         })
     };
     match value {
-        Value::Missing | Value::Mask(_) => None,
+        Value::Missing | Value::Mask(_) | Value::Is(_) => None,
         Value::Numbers {
             numbers, bracketed, ..
         } => {

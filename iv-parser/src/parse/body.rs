@@ -21,9 +21,11 @@ impl<'a> Parser<'a> {
             Some(_) => {
                 if let Some(child) = self.opt_child() {
                     self.place_child(child);
-                } else if let Some(end) = lex::name(self.bytes, start) {
-                    self.at = end;
-                    self.field(start, end);
+                } else if let Some(end) = self.name(start) {
+                    if !(self.vrml2 && self.opt_declaration(start, end)) {
+                        self.at = end;
+                        self.field(start, end);
+                    }
                 } else {
                     self.skip_junk();
                     self.warn(
@@ -41,15 +43,17 @@ impl<'a> Parser<'a> {
     /// next, that body's items begin behind it.
     fn place_child(&mut self, child: Child<'a>) {
         self.open_items.push(Item::Child(child));
-        if let (Child::Node(id), Some(Frame::Body { node, items })) =
-            (child, self.frames.last_mut())
+        if let (
+            Child::Node(id),
+            Some(Frame::Body { node, items } | Frame::Interface { node, items }),
+        ) = (child, self.frames.last_mut())
             && *node == id
         {
             *items = self.open_items.len();
         }
     }
 
-    fn close_body(&mut self, node: NodeId, items: usize) {
+    pub(super) fn close_body(&mut self, node: NodeId, items: usize) {
         self.frames.pop();
         let start = self.tree.items.len();
         self.tree.items.extend(self.open_items.drain(items..));
@@ -59,7 +63,7 @@ impl<'a> Parser<'a> {
         entry.span.end = self.at as u32;
     }
 
-    fn close_at_end(&mut self, node: NodeId, items: usize) {
+    pub(super) fn close_at_end(&mut self, node: NodeId, items: usize) {
         if !self.ended_inside {
             self.ended_inside = true;
             self.report_missing_brace();
@@ -68,7 +72,13 @@ impl<'a> Parser<'a> {
     }
 
     /// A field whose name has been read.
-    fn field(&mut self, start: usize, end: usize) {
+    pub(super) fn field(&mut self, start: usize, end: usize) {
+        let id = self.new_field(start, end);
+        self.field_value(id);
+    }
+
+    /// Adds a field without a value.
+    pub(super) fn new_field(&mut self, start: usize, end: usize) -> FieldId {
         let id = FieldId(self.tree.fields.len() as u32);
         self.tree.fields.push(Field {
             name: &self.bytes[start..end],
@@ -78,7 +88,7 @@ impl<'a> Parser<'a> {
             span: Span::new(start, end),
         });
         self.open_items.push(Item::Field(id));
-        self.field_value(id);
+        id
     }
 
     /// Behind a value: the ignored flag and a connection.

@@ -10,12 +10,13 @@ mod numbers;
 mod plain;
 mod recover;
 mod value;
+mod vrml;
 
 use std::collections::HashSet;
 
 use crate::binary::{Schema, parse_binary};
 use crate::diagnostic::Severity;
-use crate::header::{Encoding, Header, read_header};
+use crate::header::{Dialect, Encoding, Header, read_header};
 use crate::lex;
 use crate::limits::Limits;
 use crate::source::{Problem, Span};
@@ -72,6 +73,7 @@ fn parse_text<'a>(
 ) -> Parse<'a> {
     let mut parser = Parser {
         bytes: &bytes[..bytes.len().min(limits.bytes)],
+        vrml2: header.dialect == Dialect::Vrml2,
         at: start,
         limits: *limits,
         tree: Tree::new(bytes, header),
@@ -126,6 +128,11 @@ enum Frame {
     AfterValue(FieldId),
     /// Right behind the master node of a connection.
     AfterMaster(FieldId),
+    /// Between the brackets of a prototype's interface; its declarations are the first of the
+    /// items that begin at `items`.
+    Interface { node: NodeId, items: usize },
+    /// Behind the URL of an EXTERNPROTO, whose items begin at `items`.
+    AfterUrl { node: NodeId, items: usize },
 }
 
 /// Longest DEF name with a bracket in it that a USE is compared with.
@@ -133,6 +140,8 @@ const LONGEST_ODD_NAME: usize = 256;
 
 struct Parser<'a> {
     bytes: &'a [u8],
+    /// The text is VRML 2, which has rules of its own for names, commas and strings.
+    vrml2: bool,
     at: usize,
     limits: Limits,
     tree: Tree<'a>,
@@ -173,6 +182,8 @@ impl<'a> Parser<'a> {
                     self.frames.pop();
                     self.master_output(field);
                 }
+                Some(Frame::Interface { node, items }) => self.interface_step(node, items),
+                Some(Frame::AfterUrl { node, items }) => self.close_body(node, items),
             }
         }
     }
@@ -219,8 +230,9 @@ impl<'a> Parser<'a> {
             return Some(self.open_node(b"", None, start));
         }
         let start = self.at;
-        let end = lex::name(self.bytes, start)?;
+        let end = self.name(start)?;
         match &self.bytes[start..end] {
+            word if self.vrml2 && vrml::is_statement(word) => self.statement(start, end),
             b"DEF" => self.opt_definition(start, end),
             b"USE" => {
                 self.at = end;
@@ -245,23 +257,27 @@ impl<'a> Parser<'a> {
                 if !self.is_body_next(end) {
                     return None;
                 }
-                self.at = lex::skip_trivia(self.bytes, end) + 1;
+                self.at = self.next_token(end) + 1;
                 Some(self.open_node(class, None, start))
             }
         }
     }
 
     fn is_body_next(&self, at: usize) -> bool {
-        self.bytes.get(lex::skip_trivia(self.bytes, at)) == Some(&b'{')
+        self.bytes.get(self.next_token(at)) == Some(&b'{')
     }
 
     fn opt_definition(&mut self, start: usize, end: usize) -> Option<Child<'a>> {
-        let name_start = lex::skip_trivia(self.bytes, end);
-        let full = lex::to_blank(self.bytes, name_start);
+        let name_start = self.next_token(end);
+        let full = if self.vrml2 {
+            lex::name_end(self.bytes, name_start)
+        } else {
+            lex::to_blank(self.bytes, name_start)
+        };
         // As in Coin a name goes on to the next blank; one that holds a whole body is none.
         let name = &self.bytes[name_start..full];
-        let class_start = lex::skip_trivia(self.bytes, full);
-        if let Some(class_end) = lex::name(self.bytes, class_start)
+        let class_start = self.next_token(full);
+        if let Some(class_end) = self.name(class_start)
             && !name.is_empty()
             && !(name.contains(&b'{') && name.ends_with(b"}"))
             && self.is_body_next(class_end)
@@ -270,7 +286,7 @@ impl<'a> Parser<'a> {
                 self.odd_names.insert(name);
                 self.longest_odd_name = self.longest_odd_name.max(name.len());
             }
-            self.at = lex::skip_trivia(self.bytes, class_end) + 1;
+            self.at = self.next_token(class_end) + 1;
             let class = &self.bytes[class_start..class_end];
             return Some(self.open_node(class, Some(name), class_start));
         }
@@ -294,7 +310,7 @@ impl<'a> Parser<'a> {
             return None;
         }
         let name = &self.bytes[name_start..name_end];
-        self.at = lex::skip_trivia(self.bytes, name_end) + 1;
+        self.at = self.next_token(name_end) + 1;
         self.warn(
             "no-class",
             "a body without a class name",
@@ -350,6 +366,8 @@ impl<'a> Parser<'a> {
     fn quoted(&mut self) -> (usize, usize, lex::StringEnd) {
         let found = if self.unclosed {
             lex::open_string(self.bytes, self.at)
+        } else if self.vrml2 {
+            lex::vrml_string(self.bytes, self.at)
         } else {
             lex::string(self.bytes, self.at)
         };
@@ -362,7 +380,25 @@ impl<'a> Parser<'a> {
     }
 
     fn skip_trivia(&mut self) {
-        self.at = lex::skip_trivia(self.bytes, self.at);
+        self.at = self.next_token(self.at);
+    }
+
+    /// Where the first token at or behind `at` begins.
+    fn next_token(&self, at: usize) -> usize {
+        if self.vrml2 {
+            lex::skip_vrml_trivia(self.bytes, at)
+        } else {
+            lex::skip_trivia(self.bytes, at)
+        }
+    }
+
+    /// The end of the identifier at `at`.
+    fn name(&self, at: usize) -> Option<usize> {
+        if self.vrml2 {
+            lex::vrml_name(self.bytes, at)
+        } else {
+            lex::name(self.bytes, at)
+        }
     }
 
     fn warn(&mut self, code: &'static str, message: &str, hint: &str, span: Span) {

@@ -50,7 +50,7 @@ impl Parser<'_> {
             let at = self.at;
             if let Some((value, after, remark)) = number(self.bytes, at) {
                 if remark != Remark::None {
-                    octal |= remark == Remark::Octal;
+                    octal |= remark == Remark::Octal && !self.vrml2;
                     self.remark(remark, Span::new(at, after));
                 }
                 run.push(value);
@@ -61,6 +61,11 @@ impl Parser<'_> {
             }
             match self.peek() {
                 Some(b'#') => self.at = lex::skip_comment(self.bytes, at),
+                // In VRML 2 commas are blanks. Outside brackets the next number belongs to the value
+                // only by its field's type, which readers of the tree know.
+                Some(b',') if self.vrml2 && (bracketed || self.number_follows_comma(at)) => {
+                    self.at = self.next_token(at);
+                }
                 Some(b',') if bracketed || self.number_follows_comma(at) => {
                     if comma {
                         self.warn(
@@ -106,7 +111,7 @@ impl Parser<'_> {
     }
 
     fn number_follows_comma(&self, at: usize) -> bool {
-        let next = lex::skip_trivia(self.bytes, at + 1);
+        let next = self.next_token(at + 1);
         number(self.bytes, next).is_some()
     }
 
@@ -124,8 +129,8 @@ impl Parser<'_> {
             }
             Some(_) => {
                 // A word with a value behind it is the next field: the bracket was forgotten.
-                if let Some(end) = lex::name(self.bytes, at) {
-                    let next = self.bytes.get(lex::skip_trivia(self.bytes, end));
+                if let Some(end) = self.name(at) {
+                    let next = self.bytes.get(self.next_token(end));
                     if matches!(next, Some(b'[' | b'{' | b'"' | b'a'..=b'z' | b'A'..=b'Z')) {
                         self.missing_bracket(open.saturating_sub(1));
                         return true;

@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use crate::{Atom, Child, Item, Numbers, Tree, Value, parse, text_of};
 
+mod vrml;
+
 /// The tree in one line: `Class{field=value Child{}}`.
 pub(crate) fn brief(tree: &Tree<'_>) -> String {
     let mut out = String::new();
@@ -37,9 +39,16 @@ fn child(tree: &Tree<'_>, child_: Child<'_>, out: &mut String) {
 
 fn field(tree: &Tree<'_>, id: crate::FieldId, out: &mut String) {
     let field = tree.field(id);
+    if let Some(declaration) = tree.declaration(id) {
+        let (access, of) = (declaration.access.word(), declaration.field_type);
+        write!(out, "{access}:{}:", text_of(of)).unwrap();
+    }
     write!(out, "{}=", text_of(field.name)).unwrap();
     match &field.value {
         Value::Missing => {}
+        Value::Is(range) => {
+            write!(out, "IS:{}", atom(tree, &tree.atoms(*range)[0])).unwrap();
+        }
         Value::Numbers {
             numbers, bracketed, ..
         } => {
@@ -105,8 +114,12 @@ fn atom(tree: &Tree<'_>, atom: &Atom<'_>) -> String {
 
 /// Checks rows of (body, tree, codes); the header is added.
 fn check(rows: &[(&str, &str, &[&str])]) {
+    check_under("#Inventor V2.1 ascii", rows);
+}
+
+fn check_under(header: &str, rows: &[(&str, &str, &[&str])]) {
     for (text, tree, codes) in rows {
-        let bytes = format!("#Inventor V2.1 ascii\n{text}");
+        let bytes = format!("{header}\n{text}");
         let parsed = parse(bytes.as_bytes());
         assert_eq!(brief(&parsed.tree).trim_end(), *tree, "{text}");
         let found: Vec<&str> = parsed.problems.iter().map(|p| p.code).collect();

@@ -45,6 +45,7 @@ impl<'a> Parser<'a> {
             Some(_) => {
                 if self.number_here() {
                     self.numbers(field, false);
+                } else if self.vrml2 && self.opt_is(field) {
                 } else if let Some(atom) = self.opt_atom() {
                     return self.single(field, atom);
                 } else {
@@ -68,7 +69,10 @@ impl<'a> Parser<'a> {
         self.tree.atoms.push(atom);
         let opened = matches!(
             (atom, self.frames.last()),
-            (Atom::Child(Child::Node(id)), Some(Frame::Body { node, .. })) if *node == id
+            (
+                Atom::Child(Child::Node(id)),
+                Some(Frame::Body { node, .. } | Frame::Interface { node, .. })
+            ) if *node == id
         );
         if !opened {
             self.more_of_a_kind(atom);
@@ -95,7 +99,7 @@ impl<'a> Parser<'a> {
     /// `A | B` without parentheses, and `"a" "b"` without brackets.
     fn more_of_a_kind(&mut self, first: Atom<'a>) {
         loop {
-            let next = lex::skip_trivia(self.bytes, self.at);
+            let next = self.next_token(self.at);
             match (first, self.bytes.get(next)) {
                 (Atom::Word(..), Some(b'|')) => {
                     self.at = lex::skip_trivia(self.bytes, next + 1);
@@ -244,7 +248,7 @@ impl<'a> Parser<'a> {
         if self.peek() == Some(b'"') {
             return Some(self.string());
         }
-        let child_possible = lex::name(self.bytes, self.at).is_some();
+        let child_possible = self.name(self.at).is_some();
         if child_possible && let Some(child) = self.opt_child() {
             return Some(Atom::Child(child));
         }

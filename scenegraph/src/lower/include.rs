@@ -1,15 +1,16 @@
-//! `File` and `WWWInline`: models in models.
+//! `File`, `WWWInline` and `Inline`: models in models.
 //!
 //! A file that is included twice is read once and shared. A file cannot include itself, neither
 //! directly nor by way of others.
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use iv_parser::{Diagnostic, NodeId as TreeId, Severity, SourcePos};
+use iv_parser::{Diagnostic, Severity, SourcePos};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Builder, File};
+use super::Builder;
 use crate::graph::{Node, NodeId};
 use crate::loader::Loader;
 use crate::registry::Class;
@@ -21,13 +22,14 @@ const MAX_FILES: usize = 10_000;
 struct Pending {
     node: NodeId,
     file: u32,
-    name: Arc<str>,
+    /// Tried in order.
+    names: Vec<Arc<str>>,
     pos: SourcePos,
 }
 
 pub(super) struct Includes<'l> {
     loader: &'l dyn Loader,
-    pending: Vec<Pending>,
+    pending: VecDeque<Pending>,
     known: FxHashMap<PathBuf, (u32, NodeId)>,
     /// For each file, the files it includes, each once.
     edges: Vec<Vec<u32>>,
@@ -39,7 +41,7 @@ impl<'l> Includes<'l> {
     pub(super) fn new(loader: &'l dyn Loader) -> Self {
         Self {
             loader,
-            pending: Vec::new(),
+            pending: VecDeque::new(),
             known: FxHashMap::default(),
             edges: Vec::new(),
             connected: FxHashSet::default(),
@@ -82,69 +84,118 @@ impl<'l> Includes<'l> {
     }
 }
 
-impl File<'_, '_, '_, '_> {
-    /// Remembers the reference of a node that includes a file.
-    pub(super) fn note_include(&mut self, id: TreeId, node: &Node) {
-        if !matches!(node.class(), Some(Class::File | Class::WWWInline))
-            || node.entry("name").is_none()
-        {
-            return;
-        }
-        if let Some(name) = node.text("name") {
-            let pending = Pending {
-                node: NodeId(self.base + id.0),
-                file: self.index,
-                name: Arc::clone(name),
-                pos: node.pos,
-            };
-            self.builder.includes.pending.push(pending);
-        }
-    }
+/// The part of a reference before `#`, which says what of the file is meant.
+pub(super) fn file_part(url: &str) -> &str {
+    url.split_once('#').map_or(url, |(file, _)| file)
 }
 
 impl Builder<'_> {
-    /// Follows all references, those of files just read included.
-    pub(super) fn load_includes(&mut self) {
-        let mut next = 0;
-        while next < self.includes.pending.len() {
-            self.follow(next);
-            next += 1;
+    /// Remembers the references of a node that includes a file.
+    pub(super) fn note_include(&mut self, id: NodeId, node: &Node) {
+        let names: Vec<Arc<str>> = match node.class() {
+            Some(Class::File | Class::WWWInline) if node.entry("name").is_some() => {
+                node.text("name").cloned().into_iter().collect()
+            }
+            Some(Class::VRMLInline) => {
+                let urls = node.value("url").texts();
+                urls.iter().map(|url| file_part(url).into()).collect()
+            }
+            _ => return,
+        };
+        if !names.is_empty() {
+            self.includes.pending.push_back(Pending {
+                node: id,
+                file: node.pos.file,
+                names,
+                pos: node.pos,
+            });
         }
     }
 
-    fn follow(&mut self, index: usize) {
-        let Pending {
-            node,
-            file,
-            ref name,
-            pos,
-        } = self.includes.pending[index];
-        let name = Arc::clone(name);
-        let folder = self.files[file as usize].folder.clone();
-        let loader = self.includes.loader;
-        let found = loader.find(&folder, &name).map_err(|e| e.to_string());
-        match found.and_then(|id| self.included(id, file)) {
-            Ok(root) => self.nodes[node.0 as usize].children = vec![root],
-            Err(why) => {
-                // An inline that brings its own stand-in loses little.
-                let includer = &self.nodes[node.0 as usize];
-                let is_inline = includer.class() == Some(Class::WWWInline);
-                let stand_in = is_inline.then(|| includer.node_field("alternateRep"));
-                let stand_in = stand_in.flatten();
-                self.nodes[node.0 as usize].children = stand_in.into_iter().collect();
-                self.diagnostics.push(Diagnostic {
-                    severity: match stand_in {
-                        Some(_) => Severity::Warning,
-                        None => Severity::Error,
-                    },
-                    code: "include",
-                    message: format!("`{name}` is not included: {why}"),
-                    hint: if name.contains("://") { String::new() } else { "it is looked for beside this file, then beside the first file, then in the --search folders".to_owned() },
-                    file: Arc::clone(&self.files[file as usize].name),
-                    pos,
-                    snippet: None,
-                });
+    /// Follows all references, those of files just read included.
+    pub(super) fn load_includes(&mut self) {
+        while let Some(pending) = self.includes.pending.pop_front() {
+            self.follow(&pending);
+        }
+    }
+
+    fn follow(&mut self, pending: &Pending) {
+        let &Pending {
+            node, file, pos, ..
+        } = pending;
+        let mut first_failure = None;
+        for name in &pending.names {
+            match self.open(name, file) {
+                Ok((_, root)) => {
+                    self.nodes[node.0 as usize].children = vec![root];
+                    return;
+                }
+                Err(why) => {
+                    first_failure.get_or_insert((name, why));
+                }
             }
+        }
+        let Some((name, why)) = first_failure else {
+            return;
+        };
+        // An inline that brings its own stand-in loses little.
+        let includer = &self.nodes[node.0 as usize];
+        let is_inline = includer.class() == Some(Class::WWWInline);
+        let stand_in = is_inline.then(|| includer.node_field("alternateRep"));
+        let stand_in = stand_in.flatten();
+        self.nodes[node.0 as usize].children = stand_in.into_iter().collect();
+        let severity = match stand_in {
+            Some(_) => Severity::Warning,
+            None => Severity::Error,
+        };
+        self.report_missing(severity, name, &why, file, pos);
+    }
+
+    /// Says that a file was not read.
+    pub(super) fn report_missing(
+        &mut self,
+        severity: Severity,
+        name: &str,
+        why: &str,
+        file: u32,
+        pos: SourcePos,
+    ) {
+        self.diagnostics.push(Diagnostic {
+            severity,
+            code: "include",
+            message: format!("`{name}` is not included: {why}"),
+            hint: if name.contains("://") {
+                String::new()
+            } else {
+                "it is looked for beside this file, then beside the first file, then in the \
+                 --search folders"
+                    .to_owned()
+            },
+            file: Arc::clone(&self.files[file as usize].name),
+            pos,
+            snippet: None,
+        });
+    }
+
+    /// The number and the root of the file called `name` by file number `from`.
+    pub(super) fn open(&mut self, name: &str, from: u32) -> Result<(u32, NodeId), String> {
+        let folder = self.files[from as usize].folder.clone();
+        let loader = self.includes.loader;
+        let id = loader.find(&folder, name).map_err(|e| e.to_string())?;
+        self.included(id, from)
+    }
+
+    /// The number of the file called `name` by file number `from`, which may be that file itself.
+    pub(super) fn library(&mut self, name: &str, from: u32) -> Result<u32, String> {
+        if name.is_empty() {
+            return Ok(from);
+        }
+        let folder = self.files[from as usize].folder.clone();
+        let loader = self.includes.loader;
+        let id = loader.find(&folder, name).map_err(|e| e.to_string())?;
+        match self.includes.known.get(&id) {
+            Some(&(file, _)) if file == from => Ok(from),
+            _ => self.included(id, from).map(|(file, _)| file),
         }
     }
 
@@ -158,7 +209,7 @@ impl Builder<'_> {
         }
     }
 
-    fn included(&mut self, id: PathBuf, from: u32) -> Result<NodeId, String> {
+    fn included(&mut self, id: PathBuf, from: u32) -> Result<(u32, NodeId), String> {
         let known = self.includes.known.get(&id).copied();
         if let Some((file, root)) = known {
             // What is connected already was found to be without a circle.
@@ -170,7 +221,7 @@ impl Builder<'_> {
                 ));
             }
             self.includes.connect(from, file);
-            return Ok(root);
+            return Ok((file, root));
         }
         if self.files.len() >= MAX_FILES {
             return Err(format!("more than {MAX_FILES} files"));
@@ -183,6 +234,6 @@ impl Builder<'_> {
         // As in SoFile: what stands at the top of the file leaks into the one that includes it.
         let root = self.file(&bytes, name, &folder, Class::Group);
         self.includes.known.insert(id, (file, root));
-        Ok(root)
+        Ok((file, root))
     }
 }

@@ -5,9 +5,11 @@
 //! graph correspond one to one, so no traversal is needed; only what upgrading adds comes behind.
 
 mod decimal;
+mod expand;
 mod include;
 mod names;
 mod node;
+mod proto;
 mod schema;
 mod swept;
 mod upgrade;
@@ -17,7 +19,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use iv_parser::{
-    Child, Diagnostic, Dialect, LineCounter, Problem, Severity, Source, SourcePos, Span, Tree,
+    Child, Diagnostic, Dialect, Form, LineCounter, Problem, Severity, Source, SourcePos, Span, Tree,
 };
 
 use rustc_hash::FxHashMap;
@@ -26,8 +28,10 @@ use crate::graph::{Graph, Kind, Node, NodeId, SourceFile};
 use crate::loader::Loader;
 use crate::registry::Class;
 
+use expand::Expansion;
 use include::Includes;
-use names::{Names, Reference};
+use names::{Names, Reference, Scope};
+use proto::Protos;
 
 pub use schema::RegistryLayout;
 pub(crate) use value::read_default;
@@ -53,11 +57,13 @@ pub fn load_with(
         files: Vec::new(),
         diagnostics: Vec::new(),
         includes: Includes::new(loader),
+        protos: Protos::default(),
+        expansion: Expansion::default(),
         limits: *limits,
     };
     let root = builder.file(bytes, name.into(), folder, Class::Separator);
     builder.includes.know_root(name, folder, root);
-    builder.load_includes();
+    builder.complete();
     Graph {
         nodes: builder.nodes,
         root,
@@ -71,6 +77,8 @@ struct Builder<'l> {
     files: Vec<SourceFile>,
     diagnostics: Vec<Diagnostic>,
     includes: Includes<'l>,
+    protos: Protos,
+    expansion: Expansion,
     limits: iv_parser::Limits,
 }
 
@@ -90,10 +98,9 @@ impl Builder<'_> {
         let mut dropped = parsed.problems_dropped;
         let is_foreign = problems.iter().any(|p| p.code == "unsupported-format");
         let without_header = problems.iter().any(|p| p.code == "no-header");
-        let readable = header.dialect != Dialect::Vrml2;
         // Without a header and without a single known class it is some other text.
         let nothing_known = without_header && !has_known_class(&parsed.tree);
-        let readable = readable && !is_foreign && !nothing_known;
+        let readable = !is_foreign && !nothing_known;
         let root = if readable {
             let mut file = File {
                 index,
@@ -102,12 +109,16 @@ impl Builder<'_> {
                 base: self.nodes.len() as u32,
                 lines: LineCounter::new(index),
                 owner: iv_parser::NodeId(0),
+                scope: None,
+                vrml2: header.dialect == Dialect::Vrml2,
+                routes: 0,
                 guesses: FxHashMap::default(),
                 dropped: 0,
                 problems: &mut problems,
                 builder: self,
             };
             file.nodes();
+            file.report_routes();
             let root = file.root(around);
             dropped += file.dropped;
             root
@@ -115,7 +126,7 @@ impl Builder<'_> {
             dropped = 0;
             if !is_foreign {
                 problems.clear();
-                problems.push(unreadable(nothing_known));
+                problems.push(unreadable());
             }
             self.add(Node {
                 kind: Kind::Known(Class::Separator),
@@ -166,23 +177,12 @@ fn has_known_class(tree: &Tree<'_>) -> bool {
     nodes.any(|node| Class::from_name(node.class).is_some())
 }
 
-fn unreadable(nothing_known: bool) -> Problem {
-    let (message, hint) = if nothing_known {
-        (
-            "this is not an Inventor file",
-            "it has neither a header nor a node of a known class",
-        )
-    } else {
-        (
-            "VRML 2.0 files are not read by this version",
-            "write the model as Inventor or VRML 1.0",
-        )
-    };
+fn unreadable() -> Problem {
     Problem {
         severity: Severity::Error,
         code: "unsupported-format",
-        message: message.to_owned(),
-        hint: hint.to_owned(),
+        message: "this is not an Inventor file".to_owned(),
+        hint: "it has neither a header nor a node of a known class".to_owned(),
         span: Span::default(),
     }
 }
@@ -197,6 +197,12 @@ struct File<'b, 't, 'a, 'l> {
     lines: LineCounter,
     /// The node being added.
     owner: iv_parser::NodeId,
+    /// The PROTO it stands in.
+    scope: Scope,
+    /// The file is VRML 2.
+    vrml2: bool,
+    /// ROUTEs met so far.
+    routes: usize,
     /// Hints for the unknown classes met so far.
     guesses: FxHashMap<String, String>,
     /// Problems that were not kept.
@@ -207,6 +213,7 @@ struct File<'b, 't, 'a, 'l> {
 
 impl<'a> File<'_, '_, 'a, '_> {
     fn root(&mut self, around: Class) -> NodeId {
+        self.scope = None;
         let roots = self.tree.children_of_root().to_vec();
         let children: Vec<NodeId> = roots.iter().filter_map(|&c| self.child(c)).collect();
         if let [only] = children[..]
@@ -214,7 +221,12 @@ impl<'a> File<'_, '_, 'a, '_> {
         {
             return only;
         }
-        if children.is_empty() {
+        // A library of prototypes needs nothing else.
+        let is_library = |c: &Child<'_>| {
+            matches!(c, Child::Node(id)
+                if matches!(self.tree.node(*id).form, Form::Proto | Form::ExternProto))
+        };
+        if children.is_empty() && !roots.iter().any(is_library) {
             self.problem(
                 Severity::Warning,
                 "empty",
@@ -240,6 +252,7 @@ impl<'a> File<'_, '_, 'a, '_> {
     fn child(&mut self, child: Child<'a>) -> Option<NodeId> {
         match child {
             Child::Null => None,
+            Child::Node(id) if self.tree.node(id).form != Form::Node => None,
             Child::Node(id) => Some(NodeId(self.base + id.0)),
             Child::Use(name, span) => self.reference(name, span),
         }
@@ -247,7 +260,7 @@ impl<'a> File<'_, '_, 'a, '_> {
 
     fn reference(&mut self, name: &[u8], span: Span) -> Option<NodeId> {
         let shown = iv_parser::text_of(&name[..name.len().min(80)]);
-        let (code, message, hint) = match self.names.find(self.tree, name, span) {
+        let (code, message, hint) = match self.names.find(self.tree, name, span, self.scope) {
             Reference::Node(id) => return Some(NodeId(self.base + id.0)),
             Reference::Cycle => (
                 "cycle",

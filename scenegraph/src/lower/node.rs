@@ -1,6 +1,8 @@
 //! One node: its class, its fields by the registry, its children.
 
-use iv_parser::{Atom, Child, FieldId, Item, NodeId as TreeId, Severity, Span, Value, text_of};
+use iv_parser::{
+    Atom, Child, FieldId, Form, Item, NodeId as TreeId, Severity, Span, Value, text_of,
+};
 
 use super::names::display_name;
 use super::upgrade::OldValue;
@@ -40,6 +42,15 @@ impl<'a> File<'_, '_, 'a, '_> {
         }
     }
 
+    /// Says once that nothing moves.
+    pub(super) fn report_routes(&mut self) {
+        if self.routes > 0 {
+            let message = format!("{} ROUTEs have no effect on a static picture", self.routes);
+            let hint = "fields keep the values that are written";
+            self.problem(Severity::Note, "route", message, hint, Span::default());
+        }
+    }
+
     /// Keeps the list of problems short while a file that has one at every node is read.
     fn drop_surplus_problems(&mut self) {
         let limit = self.builder.limits.problems;
@@ -53,6 +64,7 @@ impl<'a> File<'_, '_, 'a, '_> {
         let tree = self.tree;
         let source = tree.node(id);
         self.owner = id;
+        self.scope = self.names.scope(id);
         let start = source.span.start as usize;
         let pos = self.lines.position(tree.source, start);
         let name = source.def.and_then(display_name);
@@ -63,7 +75,40 @@ impl<'a> File<'_, '_, 'a, '_> {
             children: Vec::new(),
             pos,
         };
-        let known = Class::from_name(source.class);
+        match source.form {
+            Form::Node => {}
+            Form::Proto | Form::ExternProto => {
+                self.proto(id);
+                return node;
+            }
+            Form::Route => {
+                self.routes += 1;
+                return node;
+            }
+        }
+        match self.proto_of(id) {
+            None => {}
+            Some(Ok(proto)) => {
+                self.instance(id, proto, &mut node);
+                return node;
+            }
+            Some(Err(())) => {
+                let name = text_of(&source.class[..source.class.len().min(80)]);
+                self.problem(
+                    Severity::Error,
+                    "cycle",
+                    format!("`{name}` is used inside its own definition"),
+                    "a prototype cannot hold itself; this node was left out",
+                    source.span,
+                );
+                return node;
+            }
+        }
+        let known = if self.vrml2 {
+            Class::from_vrml_name(source.class)
+        } else {
+            Class::from_name(source.class)
+        };
         match known.or_else(|| self.class_from_description(id)) {
             Some(class) => {
                 node.kind = Kind::Known(class);
@@ -75,7 +120,11 @@ impl<'a> File<'_, '_, 'a, '_> {
                 if class == Class::WWWInline && node.entry("name").is_none() {
                     node.children = node.node_field("alternateRep").into_iter().collect();
                 }
-                self.note_include(id, &node);
+                settle(&mut node);
+                if self.scope.is_none() {
+                    let id = NodeId(self.base + id.0);
+                    self.builder.note_include(id, &node);
+                }
             }
             None if source.class.is_empty() => self.known(id, Class::Group, &mut node, old),
             None => {
@@ -126,6 +175,8 @@ impl<'a> File<'_, '_, 'a, '_> {
                     Some(_) => strays += 1,
                     None => {}
                 },
+                // What a script declares is its own business.
+                Item::Field(field) if tree.declaration(field).is_some() => {}
                 Item::Field(field) => self.field(spec, field, node, old),
             }
         }
@@ -162,6 +213,9 @@ impl<'a> File<'_, '_, 'a, '_> {
         let Some((index, field_spec)) = spec.field(field.name) else {
             return self.unknown_field(spec, id, node);
         };
+        if let Value::Is(name) = field.value {
+            return self.link_field(name, index, field_spec.field_type, id);
+        }
         let value = self.value(spec, field_spec, id);
         if let Some(connection) = &field.connection {
             // Looked up for the sake of its own remarks: a name that nobody has.
@@ -216,7 +270,7 @@ impl<'a> File<'_, '_, 'a, '_> {
     }
 
     /// The handles of all nodes that stand in a value, in order.
-    fn handles(&mut self, value: &Value) -> Vec<Option<NodeId>> {
+    pub(super) fn handles(&mut self, value: &Value) -> Vec<Option<NodeId>> {
         let Value::Atoms { atoms, .. } = value else {
             return Vec::new();
         };
@@ -251,6 +305,10 @@ impl<'a> File<'_, '_, 'a, '_> {
     fn unknown_field(&mut self, spec: &ClassSpec, id: FieldId, node: &mut Node) {
         let tree = self.tree;
         let field = tree.field(id);
+        // Events of VRML have no values, and are in no list.
+        if matches!(field.value, Value::Is(_)) {
+            return;
+        }
         let expected = DESCRIPTION.contains(&field.name) || spec.has_parts();
         if expected || self.declares(self.owner, field.name) {
             return;
@@ -283,8 +341,14 @@ impl<'a> File<'_, '_, 'a, '_> {
         if let Some(known) = self.guesses.get(class) {
             return known.clone();
         }
-        let found = Class::closest(class);
-        let text = found.map_or(String::new(), |c| format!("; did you mean {}?", c.name()));
+        let found = match self.vrml2 {
+            true => Class::closest(&format!("VRML{class}")).or_else(|| Class::closest(class)),
+            false => Class::closest(class),
+        };
+        let text = found.map_or(String::new(), |c| {
+            let name = if self.vrml2 { c.vrml_name() } else { c.name() };
+            format!("; did you mean {name}?")
+        });
         self.guesses.insert(class.to_owned(), text.clone());
         text
     }
@@ -330,6 +394,20 @@ impl<'a> File<'_, '_, 'a, '_> {
             &what,
             span,
         );
+    }
+}
+
+/// Puts what the fields of a VRML 2 group hold among its children.
+pub(super) fn settle(node: &mut Node) {
+    let Some(list) = node.class().and_then(|c| c.spec().child_list()) else {
+        return;
+    };
+    if let FieldValue::Nodes(nodes) = node.value(list) {
+        let nodes = nodes.clone();
+        node.children.extend(nodes);
+    }
+    if let Some((index, _)) = node.class().and_then(|c| c.spec().field(list.as_bytes())) {
+        node.fields.retain(|f| usize::from(f.index) != index);
     }
 }
 

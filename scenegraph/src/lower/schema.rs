@@ -10,8 +10,15 @@ pub struct RegistryLayout;
 
 impl Layout for RegistryLayout {
     fn tuple_size(&self, class: &[u8], field: &[u8]) -> usize {
-        let spec = Class::from_name(class).and_then(|c| c.spec().field(field));
-        spec.map_or(0, |(_, f)| f.field_type.tuple_size())
+        let size = |class: Option<Class>| {
+            let (_, spec) = class?.spec().field(field)?;
+            Some(spec.field_type.tuple_size())
+        };
+        // Classes of both languages with the same name agree in the fields they share.
+        let inventor = size(Class::from_name(class));
+        inventor
+            .or_else(|| size(Class::from_vrml_name(class)))
+            .unwrap_or(0)
     }
 }
 

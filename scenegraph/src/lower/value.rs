@@ -215,7 +215,7 @@ impl<'a> Reader<'_, 'a> {
                 })
                 .collect(),
             Value::Numbers { span, .. } => vec![text(&self.tree.source[span.range()])],
-            Value::Missing => return None,
+            Value::Missing | Value::Is(_) => return None,
         };
         Some(FieldValue::Texts(texts))
     }
@@ -402,7 +402,7 @@ fn numeric<'v>(tree: &'v Tree<'_>, value: &'v Value) -> Option<Cow<'v, [f64]>> {
             let all: Vec<f64> = atoms.iter().filter_map(number).collect();
             (*bracketed && all.len() == atoms.len()).then_some(all.into())
         }
-        Value::Missing | Value::Mask(_) => None,
+        Value::Missing | Value::Mask(_) | Value::Is(_) => None,
     }
 }
 

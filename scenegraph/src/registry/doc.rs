@@ -11,7 +11,8 @@ This page lists every node, engine, kit and dragger class that is known by name,
 It is generated from the table in `scenegraph/src/registry`; a test fails when the two differ, and
 rewrites this page when it is run with `UPDATE_DOCS=1`.
 
-A class that is not listed here is read as an unknown node. VRML 2.0 classes are not listed.
+A class that is not listed here is read as an unknown node. The classes of VRML 2.0 have the prefix
+`VRML`; files that begin with `#VRML V2.0` write them without it.
 
 | support | meaning |
 |---|---|

@@ -11,6 +11,11 @@ static BY_NAME: LazyLock<FxHashMap<&'static [u8], Class>> = LazyLock::new(|| {
     Class::ALL.iter().map(entry).collect()
 });
 
+static VRML_NAMES: LazyLock<FxHashMap<&'static [u8], Class>> = LazyLock::new(|| {
+    let own = |&class: &Class| Some((class.name().strip_prefix("VRML")?.as_bytes(), class));
+    Class::ALL.iter().filter_map(own).collect()
+});
+
 /// Names longer than this are nobody's typing error; it bounds the cost of [`Class::closest`].
 const LONGEST_GUESS: usize = 64;
 
@@ -22,6 +27,20 @@ impl Class {
         found
             .or_else(|| BY_NAME.get(name.strip_prefix(b"So")?))
             .copied()
+    }
+
+    /// The class that a VRML 2.0 file means: one of VRML, which other files write with the prefix
+    /// `VRML`, else one of Inventor, as Coin allows.
+    #[must_use]
+    pub fn from_vrml_name(name: &[u8]) -> Option<Self> {
+        let own = VRML_NAMES.get(name).copied();
+        own.or_else(|| Self::from_name(name))
+    }
+
+    /// The name in a VRML 2.0 file.
+    #[must_use]
+    pub fn vrml_name(self) -> &'static str {
+        self.name().strip_prefix("VRML").unwrap_or(self.name())
     }
 
     /// The class that a misspelt name most likely means: letter case is disregarded, and up to

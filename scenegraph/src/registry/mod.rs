@@ -1,7 +1,7 @@
 //! The table of all Open Inventor classes: their fields, types, defaults, words and how much of
-//! each takes effect. It describes classes and holds no nodes; VRML 2.0 classes are not in it.
+//! each takes effect. It describes classes and holds no nodes.
 //!
-//! Fields and defaults are those of Open Inventor 2.1 with Coin's additions.
+//! Fields and defaults are those of Open Inventor 2.1 with Coin's additions, and of VRML 2.0.
 
 mod appearance;
 mod doc;
@@ -24,6 +24,7 @@ mod tests;
 mod textures;
 mod transforms;
 mod types;
+mod vrml;
 
 pub use doc::nodes_markdown;
 pub use old::{OLD_FIELDS, OldFields};
@@ -44,6 +45,7 @@ use shapes::shapes;
 use table::define_classes;
 use textures::textures;
 use transforms::transforms;
+use vrml::vrml;
 
 /// Names that occur as [`ClassSpec::parent`] but cannot be instantiated and so have no entry.
 pub const ABSTRACT: &[&str] = &[
@@ -63,11 +65,17 @@ pub const ABSTRACT: &[&str] = &[
     "TextureCoordinateFunction",
     "Transformation",
     "UniformShaderParameter",
+    "VRMLGeometry",
+    "VRMLInterpolator",
+    "VRMLLight",
+    "VRMLParent",
+    "VRMLSensor",
+    "VRMLTexture",
 ];
 
 groups! { [
     transforms appearance textures shaders property shapes lights info engines kits draggers old
-    define_classes
+    vrml define_classes
 ] }
 
 impl Class {

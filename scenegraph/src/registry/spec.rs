@@ -43,7 +43,23 @@ impl ClassSpec {
         match self.family {
             Family::Group => !matches!(self.class, Class::File | Class::WWWInline),
             Family::Old => matches!(self.class, Class::LayerGroup | Class::CustomNode),
+            Family::Vrml => self.child_list().is_some(),
             _ => false,
+        }
+    }
+
+    /// The field of a VRML 2.0 class that holds its children.
+    #[must_use]
+    pub const fn child_list(&self) -> Option<&'static str> {
+        match self.class {
+            Class::VRMLGroup
+            | Class::VRMLTransform
+            | Class::VRMLAnchor
+            | Class::VRMLBillboard
+            | Class::VRMLCollision => Some("children"),
+            Class::VRMLSwitch => Some("choice"),
+            Class::VRMLLOD => Some("level"),
+            _ => None,
         }
     }
 
@@ -141,6 +157,8 @@ named_enum! {
         Manipulator = "Manipulators",
         /// Classes found only in files of Inventor 1.0 and 2.0.
         Old = "Old classes",
+        /// Classes of VRML 2.0.
+        Vrml = "VRML 2.0",
     }
 }
 

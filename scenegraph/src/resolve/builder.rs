@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::graph::NodeId;
 use crate::scene::{
-    Camera, Environment, EnvironmentId, Instance, Light, LightId, LightModel, LightSetId, Material,
-    MaterialId, Mesh, MeshId, Node, Scene, Texture, TextureId,
+    Camera, Environment, EnvironmentId, Fog, Instance, Light, LightId, LightModel, LightSetId,
+    Material, MaterialId, Mesh, MeshId, Node, Scene, Texture, TextureId,
 };
 use crate::shape::Measure;
 
+use super::for_all::ForAll;
 use super::state::LightList;
 
 /// What two uses of a material must have in common to share it: all values, bit by bit.
@@ -26,7 +28,7 @@ struct MaterialKey {
 
 /// Longest that all light sets may be together. Every shape between two of many lights sees
 /// another set, so their length can grow with the square of the file's.
-const MAX_LIGHT_SET_ENTRIES: usize = 4_000_000;
+pub(super) const MAX_LIGHT_SET_ENTRIES: usize = 4_000_000;
 
 #[derive(Default)]
 pub(super) struct Builder {
@@ -39,11 +41,13 @@ pub(super) struct Builder {
     light_sets: FxHashMap<LightList, LightSetId>,
     light_set_entries: usize,
     environments: FxHashMap<Vec<u64>, EnvironmentId>,
+    for_all: ForAll,
     class_names: FxHashSet<Arc<str>>,
 }
 
 impl Builder {
-    pub fn finish(self) -> (Scene, Vec<Measure>) {
+    pub fn finish(mut self) -> (Scene, Vec<Measure>) {
+        self.for_all.apply(&mut self.scene);
         (self.scene, self.measures)
     }
 
@@ -92,6 +96,18 @@ impl Builder {
         let length = self.light_list_length(list) + 1;
         self.light_lists.push((list, id, length));
         LightList(self.light_lists.len() as u32)
+    }
+
+    /// Adds a light that reaches everything around `center`, in the world, within `radius`.
+    pub fn light_for_all(&mut self, light: Light, center: DVec3, radius: f64) {
+        let id = LightId(self.scene.lights.len() as u32);
+        self.scene.lights.push(light);
+        self.for_all.add_light(id, center, radius);
+    }
+
+    /// Adds a fog for the whole scene; the first one counts.
+    pub fn fog_for_all(&mut self, fog: Fog) {
+        self.for_all.add_fog(fog);
     }
 
     pub fn camera(&mut self, camera: Camera) {

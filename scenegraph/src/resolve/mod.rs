@@ -5,12 +5,14 @@
 //! results to the builder, which shares what is equal.
 
 mod builder;
+mod for_all;
 mod lights;
 mod profiles;
 mod properties;
 mod shapes;
 mod state;
 mod transforms;
+mod vrml;
 mod walk;
 
 use std::sync::Arc;

@@ -10,7 +10,7 @@ use crate::scene::{
     Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
     TextureSource, Wrap,
 };
-use crate::shape::{Attributes, Job, Made, ShapeMaker, is_closed, is_nurbs, is_trimmed};
+use crate::shape::{Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed, is_nurbs, is_trimmed};
 
 use super::Geometry;
 use super::state::{Ordering, State, Style};
@@ -25,6 +25,19 @@ impl Walk<'_> {
         if !ShapeMaker::knows(class) {
             return false;
         }
+        self.shape_as(class, id, id, None);
+        true
+    }
+
+    /// Adds the shape `id`, drawn as one of `class`, or as the faces made for it, and placed and
+    /// named as the node `placed`.
+    pub(super) fn shape_as(
+        &mut self,
+        class: Class,
+        id: NodeId,
+        placed: NodeId,
+        made: Option<&MadeFaces>,
+    ) {
         let style = if self.options.like_coin {
             Style::Filled
         } else {
@@ -33,16 +46,16 @@ impl Walk<'_> {
         if style == Style::Invisible {
             let node = self.graph.node(id);
             self.left_out("shapes of the DrawStyle INVISIBLE are left out", node);
-            return true;
+            return;
         }
         // What cannot be placed is not made.
         if !self.can_place(self.graph.node(id)) {
-            return true;
+            return;
         }
         let graph = self.graph;
         let state = self.state.clone();
         let Some(profiles) = self.profiles_of(class, id) else {
-            return true;
+            return;
         };
         let job = Job {
             graph,
@@ -51,7 +64,8 @@ impl Walk<'_> {
             state: &state,
             lit: state.light_model == LightModel::Phong,
             style,
-            shared: self.is_shared(id),
+            shared: self.is_shared(id) || self.is_shared(placed),
+            made,
             fans: self.options.like_coin,
             chord: self.local_chord(class),
             profiles,
@@ -71,7 +85,10 @@ impl Walk<'_> {
                 .measure(&job, &attributes, |measure| builder.measure(measure)),
         };
         if let Some(made) = made {
-            let placement = self.place(id);
+            let mut placement = self.place(placed);
+            if placement.name.is_none() {
+                placement.name = graph.node(id).name.clone();
+            }
             let material = self.material(&job, &attributes, &made);
             let light_set = self.builder.light_set(state.lights).unwrap_or_else(|| {
                 self.remarks.warn(
@@ -90,7 +107,6 @@ impl Walk<'_> {
                 environment: state.environment_id,
             });
         }
-        true
     }
 
     /// The profiles that trim a shape; `None` if there are too many.
@@ -163,6 +179,9 @@ impl Walk<'_> {
     fn texture(&mut self, id: NodeId) -> TextureId {
         let graph = self.graph;
         let node = graph.node(id);
+        if node.class() != Some(Class::Texture2) {
+            return self.vrml_texture(id);
+        }
         let wrap = |field: &str| {
             if node.word(field) == "CLAMP" {
                 Wrap::Clamp

@@ -68,6 +68,10 @@ pub struct Hints {
 pub enum ColorSource {
     /// Inventor's default.
     Default,
+    /// White: a VRML 2 Shape without a material, or under a coloured texture.
+    White,
+    /// VRML 2 `Color.color`.
+    Color(NodeId),
     /// `Material.diffuseColor`, `Material.transparency`.
     Material(NodeId),
     /// `Material.emissiveColor` of a material that is lit beforehand.

@@ -1,15 +1,17 @@
 //! The traversal itself: which nodes are visited, in which order, with which state.
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use iv_parser::{Dialect, Severity};
+use rustc_hash::FxHashMap;
 
-use crate::graph::{Graph, Kind, Node, NodeId};
+use crate::graph::{FieldValue, Graph, Kind, Node, NodeId};
 use crate::registry::{Class, Family, Support};
 use crate::remarks::Remarks;
 use crate::scene::{self, Placement, Scene};
-use crate::shape::{Measure, ShapeMaker};
+use crate::shape::{MadeFaces, Measure, ShapeMaker};
 
 use super::builder::Builder;
 use super::profiles::Profiles;
@@ -67,6 +69,10 @@ pub(super) struct Walk<'g> {
     pub remarks: Remarks,
     pub shapes: ShapeMaker,
     pub profiles: Profiles,
+    /// What shared nodes of VRML 2 give by rule.
+    pub made: FxHashMap<NodeId, Option<Rc<MadeFaces>>>,
+    /// Whether groups have to look for lights of VRML 2.
+    pub has_vrml_lights: bool,
     /// For each node whether it is the child of several.
     several_parents: Vec<bool>,
     stack: Vec<Open>,
@@ -76,12 +82,13 @@ pub(super) struct Walk<'g> {
 
 impl<'g> Walk<'g> {
     pub fn new(graph: &'g Graph, options: &'g ResolveOptions) -> Self {
-        let vrml1 = graph
-            .files
-            .first()
-            .is_some_and(|f| f.header.dialect == Dialect::Vrml1);
+        let dialect = graph.files.first().map(|f| f.header.dialect);
         let mut builder = Builder::default();
-        let state = State::new(vrml1);
+        let mut state = State::new(dialect == Some(Dialect::Vrml1));
+        if dialect == Some(Dialect::Vrml2) {
+            // Only lights bring ambient light (ISO 14772-1, 4.14).
+            state.environment.ambient_intensity = 0.0;
+        }
         builder.light_set(state.lights);
         builder.environment(&state.environment);
         Self {
@@ -92,6 +99,11 @@ impl<'g> Walk<'g> {
             remarks: Remarks::default(),
             shapes: ShapeMaker::default(),
             profiles: Profiles::default(),
+            made: FxHashMap::default(),
+            has_vrml_lights: graph
+                .nodes()
+                .iter()
+                .any(|n| n.class() == Some(Class::VRMLDirectionalLight)),
             several_parents: several_parents(graph),
             stack: Vec::new(),
             frames: Vec::new(),
@@ -162,6 +174,7 @@ impl<'g> Walk<'g> {
             }
             Family::Light => self.light(class, id),
             Family::Camera => self.camera(class, id),
+            Family::Vrml => self.vrml(class, id, node),
             Family::Information => {
                 self.note(class, node);
                 true
@@ -267,7 +280,15 @@ impl<'g> Walk<'g> {
         }
     }
 
-    fn open(&mut self, id: NodeId, first: usize, end: usize, isolates: bool) {
+    /// Opens all of a group's children; behind them the state is `before`, which may be another
+    /// one than the current.
+    pub(super) fn open_before(&mut self, id: NodeId, count: usize, before: State) {
+        if count == 0 || !self.push(id, 0, count, Keep::All(Box::new(before.clone())), None) {
+            self.state = before;
+        }
+    }
+
+    pub(super) fn open(&mut self, id: NodeId, first: usize, end: usize, isolates: bool) {
         if first == end {
             return;
         }
@@ -279,7 +300,15 @@ impl<'g> Walk<'g> {
         self.push(id, first, end, keep, None);
     }
 
-    fn push(&mut self, node: NodeId, next: usize, end: usize, keep: Keep, copies: Option<Copies>) {
+    /// Opens a group; false if it is nested too deeply.
+    fn push(
+        &mut self,
+        node: NodeId,
+        next: usize,
+        end: usize,
+        keep: Keep,
+        copies: Option<Copies>,
+    ) -> bool {
         if self.stack.len() >= self.options.limits.depth {
             let pos = self.graph.node(node).pos;
             self.remarks.add(
@@ -289,7 +318,7 @@ impl<'g> Walk<'g> {
                 "the contents of the innermost were left out",
                 pos,
             );
-            return;
+            return false;
         }
         self.frames.push(Frame {
             node,
@@ -310,6 +339,27 @@ impl<'g> Walk<'g> {
             copies,
             shared,
         });
+        self.lights_of_group(node, next, end);
+        true
+    }
+
+    /// The innermost group.
+    pub(super) fn group_around(&self) -> Option<NodeId> {
+        self.stack.last().map(|open| open.node)
+    }
+
+    /// Adds notes to the innermost group.
+    pub(super) fn add_notes(&mut self, notes: impl Iterator<Item = Arc<str>>) {
+        if let Some(frame) = self.frames.last_mut() {
+            frame.notes.extend(notes);
+        }
+    }
+
+    /// How long the current frame makes a unit at the most.
+    pub(super) fn largest_scale(&self) -> f64 {
+        let world = self.world();
+        let axes = [world.x_axis, world.y_axis, world.z_axis];
+        axes.map(DVec3::length).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether a node can be visited again: it has several parents, or something around it has.
@@ -457,7 +507,14 @@ impl<'g> Walk<'g> {
 fn several_parents(graph: &Graph) -> Vec<bool> {
     let mut has_one = vec![false; graph.nodes().len()];
     let mut has_more = has_one.clone();
-    for child in graph.nodes().iter().flat_map(|node| &node.children) {
+    let handles = graph.nodes().iter().flat_map(|node| {
+        let in_fields = node.fields.iter().flat_map(|f| match &f.value {
+            FieldValue::Nodes(nodes) => &nodes[..],
+            _ => &[],
+        });
+        node.children.iter().chain(in_fields)
+    });
+    for child in handles {
         let index = child.0 as usize;
         has_more[index] |= std::mem::replace(&mut has_one[index], true);
     }

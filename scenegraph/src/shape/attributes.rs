@@ -4,11 +4,11 @@ use glam::{DMat3, DVec2};
 use iv_parser::{Dialect, SourcePos};
 
 use crate::graph::{Graph, Node, NodeId};
-use crate::registry::Class;
+use crate::registry::{Class, Family};
 use crate::resolve::{Binding, ColorSource, Ordering, TexCoords};
 
-use super::Job;
 use super::color::Colors;
+use super::{Job, MadeFaces};
 
 /// What a shape is made from.
 pub struct Attributes<'g> {
@@ -32,6 +32,9 @@ pub struct Attributes<'g> {
     pub crease_angle_rad: f64,
     /// The shape stands in a VRML 1 file.
     pub vrml1: bool,
+    /// The shape is a node of VRML 2.
+    pub vrml2: bool,
+    made: Option<&'g MadeFaces>,
 }
 
 /// Where texture coordinates come from.
@@ -86,6 +89,15 @@ impl<'g> Attributes<'g> {
             TexCoords::List(id) => TexCoordSource::List(texcoords_of(graph.node(id))),
             TexCoords::Function(id) => TexCoordSource::Function(graph.node(id)),
         };
+        if let Some(made) = job.made {
+            (coordinates, coordinate_size) = (&made.coordinates, 3);
+            if matches!(texcoords, TexCoordSource::Default) {
+                texcoords = TexCoordSource::List(TexCoordList {
+                    numbers: &made.texcoords,
+                    size: 2,
+                });
+            }
+        }
         // What a vertexProperty holds takes the place of the state's; its bindings count only
         // where it holds data for them.
         if let Some(id) = own_property(graph, node) {
@@ -121,7 +133,33 @@ impl<'g> Attributes<'g> {
             ordering: state.hints.ordering,
             crease_angle_rad: state.hints.crease_angle_rad,
             vrml1: graph.files[node.pos.file as usize].header.dialect == Dialect::Vrml1,
+            vrml2: node
+                .class()
+                .is_some_and(|c| c.spec().family == Family::Vrml),
+            made: job.made,
         }
+    }
+
+    /// A list of indices or counts of the shape, by Inventor's name for it.
+    pub fn ints(&self, field: &str) -> &'g [i32] {
+        match (self.made, field) {
+            (Some(made), "coordIndex") => &made.coord_index,
+            (Some(made), "textureCoordIndex") => &made.texcoord_index,
+            (Some(_), _) => &[],
+            (None, _) if !self.vrml2 => self.node.ints(field),
+            (None, "materialIndex") => self.node.ints("colorIndex"),
+            (None, "textureCoordIndex") => self.node.ints("texCoordIndex"),
+            (None, "startIndex") => &[],
+            // All points.
+            (None, "numPoints") => &[-1],
+            (None, _) => self.node.ints(field),
+        }
+    }
+
+    /// Where the coordinates of a shape without indices begin.
+    pub fn start_index(&self) -> usize {
+        let start = self.ints("startIndex").first().copied();
+        start.unwrap_or(0).max(0) as usize
     }
 
     /// Number of coordinates.

@@ -7,6 +7,7 @@ use crate::resolve::{Binding, ColorSource};
 #[derive(Clone, Copy)]
 enum Diffuse<'g> {
     Default,
+    White,
     Triples(&'g [f64]),
     Packed(&'g [i32]),
 }
@@ -39,13 +40,15 @@ impl<'g> Colors<'g> {
         };
         let diffuse = match diffuse {
             ColorSource::Default => Diffuse::Default,
+            ColorSource::White => Diffuse::White,
+            ColorSource::Color(id) => Diffuse::Triples(graph.node(id).numbers("color")),
             ColorSource::Material(id) => Diffuse::Triples(graph.node(id).numbers("diffuseColor")),
             ColorSource::Emissive(id) => Diffuse::Triples(graph.node(id).numbers("emissiveColor")),
             ColorSource::Base(id) => Diffuse::Triples(graph.node(id).numbers("rgb")),
             ColorSource::Packed(id) => Diffuse::Packed(packed(id)),
         };
         let count = match diffuse {
-            Diffuse::Default => 1,
+            Diffuse::Default | Diffuse::White => 1,
             Diffuse::Triples(list) => list.len() / 3,
             Diffuse::Packed(list) => list.len(),
         };
@@ -68,6 +71,7 @@ impl<'g> Colors<'g> {
     pub fn diffuse_srgb(&self, index: usize) -> [f64; 3] {
         match self.diffuse {
             Diffuse::Default => [0.8; 3],
+            Diffuse::White => [1.0; 3],
             Diffuse::Triples(list) => {
                 let index = index.min((list.len() / 3).saturating_sub(1));
                 match list.get(index * 3..index * 3 + 3) {

@@ -150,11 +150,7 @@ impl<'g> Collector<'g> {
     /// For a shape whose index fields are read if `indexed`.
     pub fn new(attributes: &Attributes<'g>, indexed: bool, parts: Parts) -> Self {
         let list = |field: &str| {
-            if indexed {
-                attributes.node.ints(field)
-            } else {
-                &[]
-            }
+            if indexed { attributes.ints(field) } else { &[] }
         };
         // An index list whose first value is negative counts as empty.
         let usable = |list: &'g [i32]| list.first().is_some_and(|&v| v >= 0).then_some(list);
@@ -320,7 +316,7 @@ fn too_small(attributes: &Attributes<'_>, remarks: &mut Remarks) {
 }
 
 fn indexed_faces(attributes: &Attributes<'_>, spare: Spare, remarks: &mut Remarks) -> Corners {
-    let list = attributes.node.ints("coordIndex");
+    let list = attributes.ints("coordIndex");
     let mut collector = Collector::new(attributes, true, Parts::AreFaces).with(spare);
     let plain = collector.is_plain();
     let count = collector.coordinate_count as u64;
@@ -378,10 +374,10 @@ pub fn runs(
     remarks: &mut Remarks,
 ) -> (usize, Vec<usize>) {
     let total = attributes.coordinate_count();
-    let start = (attributes.node.int("startIndex").max(0) as usize).min(total);
+    let start = attributes.start_index().min(total);
     let mut left = total - start;
     let mut runs = Vec::new();
-    for &count in attributes.node.ints(field) {
+    for &count in attributes.ints(field) {
         let wanted = if count < 0 { left } else { count as usize };
         if wanted > left {
             remarks.warn(
@@ -475,7 +471,7 @@ fn strips(attributes: &Attributes<'_>, remarks: &mut Remarks) -> Corners {
 }
 
 fn indexed_strips(attributes: &Attributes<'_>, remarks: &mut Remarks) -> Corners {
-    let list = attributes.node.ints("coordIndex");
+    let list = attributes.ints("coordIndex");
     let mut collector = Collector::new(attributes, true, Parts::Own);
     let (mut part, mut corner, mut face, mut start) = (0, 0, 0, 0);
     let mut spots = Vec::new();

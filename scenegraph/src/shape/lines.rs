@@ -27,7 +27,7 @@ pub fn segments(job: &Job<'_>, attributes: &Attributes<'_>, remarks: &mut Remark
     let mut part = 0;
     let mut first_value = 0;
     if indexed {
-        let list = attributes.node.ints("coordIndex");
+        let list = attributes.ints("coordIndex");
         let (mut start, mut corner, mut face) = (0, 0, 0);
         while start < list.len() {
             let rest = &list[start..];
@@ -96,7 +96,7 @@ pub fn points(job: &Job<'_>, attributes: &Attributes<'_>, remarks: &mut Remarks)
     let mut collector = Collector::new(attributes, indexed, Parts::Own);
     let mut first_value = 0;
     if indexed {
-        for (i, &index) in attributes.node.ints("coordIndex").iter().enumerate() {
+        for (i, &index) in attributes.ints("coordIndex").iter().enumerate() {
             if collector.is_valid(i64::from(index)) {
                 collector.push(&Spot {
                     part: i,

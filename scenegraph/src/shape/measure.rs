@@ -65,12 +65,10 @@ pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
     };
     let node = attributes.node;
     let mut primitives = 0;
-    if node
-        .class()
-        .is_some_and(|c| c.spec().field(b"coordIndex").is_some())
-    {
+    let is_indexed = |c: Class| c.spec().field(b"coordIndex").is_some();
+    if is_indexed(job.class) {
         let exists = |v: &i32| (*v as usize) < attributes.coordinate_count();
-        for run in node.ints("coordIndex").split(|&v| v < 0) {
+        for run in attributes.ints("coordIndex").split(|&v| v < 0) {
             // A bad index costs a face or strip whole, of a polyline only its segments.
             let pieces: Vec<&[i32]> = match less {
                 2 => vec![if run.iter().all(exists) { run } else { &[] }],
@@ -101,8 +99,8 @@ pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
             "numVertices"
         };
         let total = attributes.coordinate_count();
-        let mut next = (node.int("startIndex").max(0) as usize).min(total);
-        for &count in node.ints(field) {
+        let mut next = attributes.start_index().min(total);
+        for &count in attributes.ints(field) {
             let len = usize::try_from(count)
                 .unwrap_or(usize::MAX)
                 .min(total - next);

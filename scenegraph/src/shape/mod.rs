@@ -9,6 +9,7 @@ mod attributes;
 mod color;
 mod faces;
 mod lines;
+mod made;
 mod measure;
 mod normals;
 mod nurbs;
@@ -32,6 +33,7 @@ pub use measure::Measure;
 use crate::graph::Graph;
 use assemble::Assembler;
 pub(crate) use attributes::{Attributes, has_texcoords};
+pub(crate) use made::{Complaint, MadeFaces, elevation_grid, extrusion};
 pub(crate) use nurbs::{is_nurbs, is_trimmed};
 pub(crate) use primitives::is_closed;
 
@@ -94,6 +96,8 @@ pub struct Job<'a> {
     pub chord: Option<f64>,
     /// Of NURBS surfaces: the profiles that trim it.
     pub profiles: Vec<NodeId>,
+    /// The faces of a shape that is given by rule.
+    pub made: Option<&'a MadeFaces>,
 }
 
 impl ShapeMaker {

@@ -153,7 +153,21 @@ pub fn mesh(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Mesh> {
     (!mesh.indices.is_empty()).then_some(mesh)
 }
 
+/// Whether a part of a cone or cylinder is drawn.
+fn draws(attributes: &Attributes<'_>, part: &str) -> bool {
+    let node = attributes.node;
+    match part {
+        _ if !attributes.vrml2 => node.has_bits("parts", part),
+        "SIDES" => node.flag("side"),
+        "TOP" => node.flag("top"),
+        _ => node.flag("bottom"),
+    }
+}
+
 fn half_size(attributes: &Attributes<'_>) -> DVec3 {
+    if attributes.vrml2 {
+        return DVec3::from(attributes.node.triple("size")).abs() / 2.0;
+    }
     let half = |field: &str| attributes.node.number(field).abs() / 2.0;
     DVec3::new(half("width"), half("height"), half("depth"))
 }
@@ -183,10 +197,9 @@ pub fn bounds(class: Class, attributes: &Attributes<'_>) -> Option<Aabb> {
 
 /// Number of triangles of a primitive, without making it.
 pub fn triangle_count(class: Class, attributes: &Attributes<'_>, complexity: f64) -> usize {
-    let node = attributes.node;
     let n = slices(complexity) as usize;
     let part = |name: &str, triangles: usize| {
-        if node.has_bits("parts", name) {
+        if draws(attributes, name) {
             triangles
         } else {
             0
@@ -204,7 +217,10 @@ pub fn triangle_count(class: Class, attributes: &Attributes<'_>, complexity: f64
 pub fn is_closed(class: Class, attributes: &Attributes<'_>) -> bool {
     match class {
         Class::Cube | Class::Sphere => true,
-        Class::Cone | Class::Cylinder => attributes.node.has_bits("parts", "ALL"),
+        Class::Cone => ["SIDES", "BOTTOM"].iter().all(|p| draws(attributes, p)),
+        Class::Cylinder => ["SIDES", "TOP", "BOTTOM"]
+            .iter()
+            .all(|p| draws(attributes, p)),
         _ => false,
     }
 }
@@ -282,7 +298,7 @@ fn cone(maker: &mut Maker<'_>, count: u32) {
         node.number("height").abs(),
     );
     let half = height / 2.0;
-    if node.has_bits("parts", "SIDES") {
+    if draws(maker.attributes, "SIDES") {
         // The side's normal leans up by the slope.
         let slope = DVec2::new(height, radius).normalize_or_zero();
         for high in [false, true] {
@@ -301,7 +317,7 @@ fn cone(maker: &mut Maker<'_>, count: u32) {
         }
         maker.band(0, count + 1, count, false, true);
     }
-    if node.has_bits("parts", "BOTTOM") {
+    if draws(maker.attributes, "BOTTOM") {
         let part = by_part(maker, 1);
         maker.disc(radius, -half, false, count, part);
     }
@@ -313,7 +329,7 @@ fn cylinder(maker: &mut Maker<'_>, count: u32) {
         node.number("radius").abs(),
         node.number("height").abs() / 2.0,
     );
-    if node.has_bits("parts", "SIDES") {
+    if draws(maker.attributes, "SIDES") {
         for (y, t) in [(-half, 0.0), (half, 1.0)] {
             for slice in 0..=count {
                 let a = around(slice, count);
@@ -329,7 +345,7 @@ fn cylinder(maker: &mut Maker<'_>, count: u32) {
         maker.band(0, count + 1, count, false, false);
     }
     for (name, y, up, number) in [("TOP", half, true, 1), ("BOTTOM", -half, false, 2)] {
-        if node.has_bits("parts", name) {
+        if draws(maker.attributes, name) {
             let part = by_part(maker, number);
             maker.disc(radius, y, up, count, part);
         }

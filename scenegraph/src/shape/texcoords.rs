@@ -30,9 +30,11 @@ pub struct BoxMap {
 impl BoxMap {
     /// SGI's rule: S runs along the longest side, T along the second, both divided by the
     /// longest; of equal sides the later axis counts as the longer one.
-    pub fn new(bounds: &Aabb) -> Self {
+    ///
+    /// VRML 2 (ISO 14772-1, 6.23) differs in that the earlier axis counts as the longer one.
+    pub fn new(bounds: &Aabb, vrml2: bool) -> Self {
         let size = bounds.size();
-        let mut axes = [2, 1, 0];
+        let mut axes = if vrml2 { [0, 1, 2] } else { [2, 1, 0] };
         axes.sort_by(|&a, &b| size[b].total_cmp(&size[a]));
         Self {
             s_axis: axes[0],
@@ -58,7 +60,7 @@ impl<'a> TexCoordMaker<'a> {
         Self {
             attributes,
             source,
-            map: BoxMap::new(bounds),
+            map: BoxMap::new(bounds, attributes.vrml2),
         }
     }
 

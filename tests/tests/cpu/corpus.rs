@@ -30,9 +30,9 @@ struct Difference {
     coin: String,
 }
 
-/// What this version reads: all but binary and VRML 97 files. One file has its header in line 2.
+/// What this version reads: all but binary files. One file has its header in line 2.
 fn is_readable(entry: &Entry) -> bool {
-    !entry.header.contains("binary") && !entry.header.starts_with("#VRML V2.0")
+    !entry.header.contains("binary")
 }
 
 fn read(folder: &Path, entry: &Entry) -> Outcome {

@@ -11,7 +11,7 @@ fn exit_codes_and_messages() {
             "#Inventor V2.1 ascii\nSeparator { Cube { } USE Lid }\n",
         )
         .file("empty.iv", "#Inventor V2.1 ascii\nSeparator { }\n")
-        .file("v2.wrl", "#VRML V2.0 utf8\nShape { }\n")
+        .file("x3d.wrl", "#X3D V3.0 utf8\nShape { }\n")
         .file("broken.glb", b"glTF\x02\0\0\0")
         .file("broken.gltf", "{ \"asset\": 1 }")
         .file("moving.gltf", GLTF_WITH_SKIN)
@@ -46,11 +46,11 @@ fn exit_codes_and_messages() {
             &["empty.iv: warning[no-geometry]", "1 warning"],
         ),
         (
-            "v2.wrl -o x.png",
+            "x3d.wrl -o x.png",
             2,
             &[
-                "error[unsupported-format]: VRML 2.0",
-                "v2.wrl: error: not shown",
+                "error[unsupported-format]: this is X3D",
+                "x3d.wrl: error: not shown",
             ],
         ),
         ("gone.iv -o x.png", 2, &["gone.iv: error: cannot be read: "]),

@@ -86,6 +86,7 @@ pub fn format_name(header: &Header) -> String {
         Dialect::Vrml1 | Dialect::Vrml2 => "VRML",
     };
     let encoding = match header.encoding {
+        Encoding::Ascii if header.dialect == Dialect::Vrml2 => "utf8",
         Encoding::Ascii => "ascii",
         Encoding::Binary => "binary",
     };

@@ -245,7 +245,7 @@ fn flags(tree: &Tree<'_>, value: &Value) -> Option<Vec<bool>> {
             };
             tree.atoms(*atoms).iter().map(flag).collect()
         }
-        Value::Missing | Value::Mask(_) => None,
+        Value::Missing | Value::Mask(_) | Value::Is(_) => None,
     }
 }
 
@@ -262,7 +262,7 @@ fn texts<'t>(tree: &'t Tree<'_>, value: &Value) -> Option<Vec<Cow<'t, [u8]>>> {
             };
             tree.atoms(*atoms).iter().map(text).collect()
         }
-        Value::Missing => None,
+        Value::Missing | Value::Is(_) => None,
     }
 }
 

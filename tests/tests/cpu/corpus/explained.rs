@@ -14,6 +14,8 @@ const PAST_THE_END: &str =
     "vertices beyond the list of colours have the last one; Coin reads on in memory";
 const TEXTURE_TRANSFORM: &str = "the texture transform is applied; Coin hands it out apart";
 
+const EIGHT_BITS: &str = "colours keep the digits of the text; Coin's VRMLColor has 8 bits";
+
 /// Path, quantities, reason.
 const EXPLAINED: &[(&str, &[&str], &str)] = &[
     ("aumuell/data/models/bird.iv", &["volume"], FILE_NORMALS),
@@ -46,7 +48,69 @@ const EXPLAINED: &[(&str, &[&str], &str)] = &[
         &["texture s", "texture t"],
         TEXTURE_TRANSFORM,
     ),
+    (
+        "graspit/models/robots/BarrettBH8_280_Tactile/iv/original_iv/link1.iv",
+        &["colours"],
+        PAST_THE_END,
+    ),
+    (
+        "graspit/models/robots/BarrettBH8_280_Tactile/iv/original_iv/link2.iv",
+        &["colours"],
+        PAST_THE_END,
+    ),
+    (
+        "graspit/models/robots/BarrettBH8_280_Tactile/iv/original_iv/link3.iv",
+        &["colours"],
+        PAST_THE_END,
+    ),
+    (
+        "graspit/models/robots/BarrettBH8_280_Tactile/iv/original_iv/palm.iv",
+        &["colours"],
+        PAST_THE_END,
+    ),
+    (
+        "graspit/models/robots/cobra_gripper/iv/fixed_jaw.wrl",
+        &["colours"],
+        PAST_THE_END,
+    ),
+    (
+        "graspit/models/robots/cobra_gripper/iv/rotating_jaw.wrl",
+        &["colours"],
+        PAST_THE_END,
+    ),
+    (
+        "graspit/models/robots/M7body/iv/base.wrl",
+        &["colours"],
+        EIGHT_BITS,
+    ),
+    (
+        "graspit/models/robots/M7body/iv/p1.wrl",
+        &["colours"],
+        EIGHT_BITS,
+    ),
+    (
+        "graspit/models/robots/M7body/iv/p5.wrl",
+        &["colours"],
+        EIGHT_BITS,
+    ),
+    (
+        "graspit/models/robots/MekaHand/iv/seg1.wrl",
+        &["colours"],
+        EIGHT_BITS,
+    ),
+    (
+        "graspit/models/robots/MekaHand/iv/seg2.wrl",
+        &["colours"],
+        EIGHT_BITS,
+    ),
+    (
+        "graspit/models/robots/MekaHand/iv/tip.wrl",
+        &["colours"],
+        EIGHT_BITS,
+    ),
 ];
+
+const VIEWPOINTS: &str = "a VRML Viewpoint is a camera here, and none for Coin";
 
 const DRAGGERS: &str = "draggers are handles of an editor, not parts of the model";
 
@@ -56,7 +120,10 @@ pub fn reason(outcome: &Outcome, what: &str) -> Option<&'static str> {
         .iter()
         .find(|(path, list, _)| *path == outcome.entry.path && list.contains(&what))
         .map(|(_, _, reason)| *reason);
-    listed.or_else(|| outcome.leaves_out("Dragger").then_some(DRAGGERS))
+    let is_vrml2 = outcome.entry.header.starts_with("#VRML V2.0");
+    let viewpoint = (is_vrml2 && what == "cameras").then_some(VIEWPOINTS);
+    let dragger = || outcome.leaves_out("Dragger").then_some(DRAGGERS);
+    listed.or(viewpoint).or_else(dragger)
 }
 
 /// All single exceptions: path and quantity.

@@ -1,0 +1,104 @@
+//! What VRML 2 says about the whole scene from anywhere in it: point and spot lights, and fog. It
+//! is known only at the end of the walk.
+
+use geometry::bounds::Aabb;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use crate::scene::{Fog, Instance, LightId, LightSetId, Scene};
+
+use super::builder::MAX_LIGHT_SET_ENTRIES;
+
+/// Most tests of a light against an instance; beyond it every such light counts as near.
+const MAX_TESTS: usize = 20_000_000;
+
+/// A light that reaches everything within a ball.
+#[derive(Clone, Copy, Debug)]
+struct Reach {
+    light: LightId,
+    center: DVec3,
+    radius: f64,
+}
+
+#[derive(Debug, Default)]
+pub(super) struct ForAll {
+    lights: Vec<Reach>,
+    fog: Option<Fog>,
+}
+
+impl ForAll {
+    pub fn add_light(&mut self, light: LightId, center: DVec3, radius: f64) {
+        self.lights.push(Reach {
+            light,
+            center,
+            radius,
+        });
+    }
+
+    pub fn add_fog(&mut self, fog: Fog) {
+        self.fog.get_or_insert(fog);
+    }
+
+    /// Gives every instance the lights that reach it, and the scene its fog.
+    pub fn apply(&self, scene: &mut Scene) {
+        if let Some(fog) = self.fog {
+            for environment in &mut scene.environments {
+                environment.fog.get_or_insert(fog);
+            }
+        }
+        if !self.lights.is_empty() {
+            self.add_to_sets(scene);
+        }
+    }
+
+    fn add_to_sets(&self, scene: &mut Scene) {
+        let boxes: Vec<Aabb> = scene.meshes.iter().map(bounds).collect();
+        let is_few = scene.instances.len().saturating_mul(self.lights.len()) <= MAX_TESTS;
+        let mut sets: Vec<Vec<LightId>> = Vec::new();
+        let mut known: FxHashMap<Vec<LightId>, LightSetId> = FxHashMap::default();
+        let mut entries = 0;
+        let before = std::mem::take(&mut scene.light_sets);
+        for instance in &mut scene.instances {
+            let mut lights = before[instance.light_set.index()].clone();
+            let local = boxes.get(instance.mesh.index());
+            let reaches =
+                |reach: &&Reach| !is_few || local.is_none_or(|b| reach.touches(instance, b));
+            lights.extend(self.lights.iter().filter(reaches).map(|r| r.light));
+            lights.sort_unstable();
+            if let Some(&set) = known.get(&lights) {
+                instance.light_set = set;
+                continue;
+            }
+            entries += lights.len();
+            if entries > MAX_LIGHT_SET_ENTRIES {
+                lights.clear();
+            }
+            let set = LightSetId(sets.len() as u32);
+            instance.light_set = *known.entry(lights.clone()).or_insert(set);
+            if instance.light_set == set {
+                sets.push(lights);
+            }
+        }
+        scene.light_sets = sets;
+    }
+}
+
+impl Reach {
+    /// Whether an instance has anything within the ball, as far as the ball around its box tells.
+    fn touches(&self, instance: &Instance, local: &Aabb) -> bool {
+        let world = &instance.placement.world_from_local;
+        let center = world.transform_point3((local.min + local.max) / 2.0);
+        let axes = [world.x_axis, world.y_axis, world.z_axis];
+        let scale: f64 = axes.map(DVec3::length_squared).iter().sum::<f64>().sqrt();
+        let radius = scale * local.size().length() / 2.0;
+        let distance = center.distance(self.center);
+        // Not to be told, because something overflows: it counts as near.
+        !(distance > self.radius + radius)
+    }
+}
+
+fn bounds(mesh: &crate::scene::Mesh) -> Aabb {
+    let mut bounds = Aabb::EMPTY;
+    (0..mesh.positions.len() as u32).for_each(|i| bounds.include(mesh.p_in_local(i)));
+    bounds
+}
