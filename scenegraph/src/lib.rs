@@ -9,6 +9,7 @@
 //!
 //! Files are opened by the [`Loader`] only.
 
+mod font;
 pub mod graph;
 mod loader;
 mod lower;
@@ -18,6 +19,7 @@ mod resolve;
 pub mod scene;
 mod shape;
 
+pub use font::AddedFont;
 pub use graph::Graph;
 pub use loader::{FileLoader, LoadError, Loaded, Loader};
 pub use lower::{RegistryLayout, load, load_with};

@@ -57,6 +57,7 @@ pub fn load_with(
     builder.includes.know_root(name, folder, root);
     builder.load_includes();
     Graph {
+        fonts: Vec::new(),
         nodes: builder.nodes,
         root,
         files: builder.files,

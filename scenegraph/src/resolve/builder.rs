@@ -7,10 +7,11 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::graph::NodeId;
 use crate::scene::{
     Camera, Environment, EnvironmentId, Instance, Light, LightId, LightModel, LightSetId, Material,
-    MaterialId, Mesh, MeshId, Node, Scene, Texture, TextureId,
+    MaterialId, Mesh, MeshId, Node, Scene, Text, Texture, TextureId,
 };
 use crate::shape::Measure;
 
+use super::labels;
 use super::state::LightList;
 
 /// What two uses of a material must have in common to share it: all values, bit by bit.
@@ -40,10 +41,13 @@ pub(super) struct Builder {
     light_set_entries: usize,
     environments: FxHashMap<Vec<u64>, EnvironmentId>,
     class_names: FxHashSet<Arc<str>>,
+    /// Instances of text that faces the viewer, in pixels.
+    labels: Vec<u32>,
 }
 
 impl Builder {
-    pub fn finish(self) -> (Scene, Vec<Measure>) {
+    pub fn finish(mut self) -> (Scene, Vec<Measure>) {
+        labels::settle(&mut self.scene, &self.measures, &self.labels);
         (self.scene, self.measures)
     }
 
@@ -83,6 +87,19 @@ impl Builder {
 
     pub fn instance(&mut self, instance: Instance) {
         self.scene.instances.push(instance);
+    }
+
+    /// Says what the last instance spells.
+    pub fn text(&mut self, strings: Vec<Arc<str>>, faces_viewer: bool) {
+        let instance = self.scene.instances.len().saturating_sub(1) as u32;
+        if faces_viewer {
+            self.labels.push(instance);
+        }
+        self.scene.texts.push(Text {
+            instance,
+            strings,
+            faces_viewer,
+        });
     }
 
     /// Adds a light to the scene, and to a list.

@@ -5,6 +5,7 @@
 //! results to the builder, which shares what is equal.
 
 mod builder;
+mod labels;
 mod lights;
 mod properties;
 mod shapes;

@@ -120,6 +120,22 @@ impl Walk<'_> {
                 }
             }
             Class::Environment => self.environment(node),
+            Class::Font | Class::FontStyle => {
+                if !node.is_ignored("name") {
+                    state.font = Some(id);
+                }
+                if !node.is_ignored("size") {
+                    state.font_size = node.number("size");
+                }
+            }
+            Class::ProfileCoordinate2 | Class::ProfileCoordinate3 => {
+                state.profile_points = Some(id);
+            }
+            Class::LinearProfile | Class::NurbsProfile => {
+                if state.profile.is_none() || node.word("linkage") == "START_FIRST" {
+                    state.profile = Some(id);
+                }
+            }
             _ => return false,
         }
         true

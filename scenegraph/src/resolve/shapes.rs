@@ -8,7 +8,7 @@ use crate::scene::{
     Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
     TextureSource, Wrap,
 };
-use crate::shape::{Attributes, Job, Made, ShapeMaker, is_closed};
+use crate::shape::{Attributes, Job, Made, ShapeMaker, is_closed, is_screen_text, is_text};
 
 use super::Geometry;
 use super::state::{Ordering, State, Style};
@@ -79,6 +79,10 @@ impl Walk<'_> {
                 light_set,
                 environment: state.environment_id,
             });
+            if is_text(class) {
+                let strings = graph.node(id).value("string").texts().to_vec();
+                self.builder.text(strings, is_screen_text(class));
+            }
         }
         true
     }

@@ -356,7 +356,7 @@ fn enough(
 }
 
 /// Drops triangles with two corners in the same place.
-fn drop_collapsed(mesh: &mut Mesh) {
+pub(super) fn drop_collapsed(mesh: &mut Mesh) {
     let collapsed = |t: &[u32; 3], positions: &[[f32; 3]]| {
         let [a, b, c] = t.map(|v| positions[v as usize]);
         t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || a == b || b == c || c == a

@@ -14,6 +14,7 @@ mod normals;
 mod outline;
 mod primitives;
 mod texcoords;
+mod text;
 mod values;
 
 use glam::DVec3;
@@ -31,6 +32,7 @@ use crate::graph::Graph;
 use assemble::Assembler;
 pub(crate) use attributes::{Attributes, has_texcoords};
 pub(crate) use primitives::is_closed;
+pub(crate) use text::{is_screen_text, is_text};
 
 /// All that a mesh depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -47,6 +49,8 @@ struct MeshKey {
     complexity: u64,
     style: Style,
     lit: bool,
+    /// Font, size and profile, for text.
+    text: Option<text::TextKey>,
 }
 
 /// A mesh that was made, and what its material must know.
@@ -67,6 +71,7 @@ pub struct ShapeMaker {
     assembler: Assembler,
     /// The arrays of an earlier shape, for the next one to fill.
     spare: faces::Spare,
+    glyphs: text::GlyphCache,
     bytes: usize,
 }
 
@@ -109,6 +114,7 @@ impl ShapeMaker {
             complexity: state.complexity.to_bits(),
             style: job.style,
             lit: job.lit,
+            text: is_text(job.class).then(|| text::TextKey::of(state)),
         }
     }
 
@@ -158,7 +164,7 @@ impl ShapeMaker {
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
-        let made = measure::measure(job, attributes).map(|measure| Made {
+        let made = measure::measure(job, attributes, &mut self.glyphs).map(|measure| Made {
             lit: measure.topology == Topology::Triangles,
             textured: job.state.texture.is_some(),
             mesh: keep(measure),
@@ -176,6 +182,10 @@ impl ShapeMaker {
         match job.class {
             Class::Cube | Class::Sphere | Class::Cone | Class::Cylinder => {
                 primitives::mesh(job, attributes)
+                    .and_then(|m| outline::styled_primitive(m, job.style))
+            }
+            Class::Text2 | Class::Text3 | Class::AsciiText => {
+                text::mesh(job, attributes, &mut self.glyphs, remarks)
                     .and_then(|m| outline::styled_primitive(m, job.style))
             }
             Class::LineSet | Class::IndexedLineSet => {
@@ -223,7 +233,7 @@ impl ShapeMaker {
                 | Class::IndexedPointSet
                 | Class::MarkerSet
                 | Class::IndexedMarkerSet
-        )
+        ) || is_text(class)
     }
 }
 

@@ -204,7 +204,7 @@ pub fn triangle_count(class: Class, attributes: &Attributes<'_>, complexity: f64
 pub fn is_closed(class: Class, attributes: &Attributes<'_>) -> bool {
     match class {
         Class::Cube | Class::Sphere => true,
-        Class::Cone | Class::Cylinder => attributes.node.has_bits("parts", "ALL"),
+        Class::Cone | Class::Cylinder | Class::Text3 => attributes.node.has_bits("parts", "ALL"),
         _ => false,
     }
 }
