@@ -20,6 +20,9 @@ impl Walk<'_> {
         if !ShapeMaker::knows(class) {
             return false;
         }
+        if self.options.like_coin && is_screen_text(class) {
+            return true;
+        }
         let style = if self.options.like_coin {
             Style::Filled
         } else {
