@@ -84,6 +84,7 @@ fn with_meshes(scene: &Scene, meshes: Vec<Mesh>) -> Scene {
         light_sets: scene.light_sets.clone(),
         environments: scene.environments.clone(),
         files: scene.files.clone(),
+        texts: scene.texts.clone(),
     }
 }
 

@@ -29,8 +29,12 @@ impl Walk<'_> {
                 }
             }
             Class::LinearProfile | Class::NurbsProfile => {
-                if node.word("linkage") == "START_FIRST" {
+                let starts = node.word("linkage") == "START_FIRST";
+                if starts {
                     state.profiles = ProfileList::default();
+                }
+                if starts || state.profile.is_none() {
+                    state.profile = Some(id);
                 }
                 state.profiles = self.profiles.add(state.profiles, id);
             }
@@ -131,6 +135,14 @@ impl Walk<'_> {
                 }
             }
             Class::Environment => self.environment(node),
+            Class::Font | Class::FontStyle => {
+                if !node.is_ignored("name") {
+                    state.font = Some(id);
+                }
+                if !node.is_ignored("size") {
+                    state.font_size = node.number("size");
+                }
+            }
             _ => return false,
         }
         true

@@ -10,7 +10,10 @@ use crate::scene::{
     Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
     TextureSource, Wrap,
 };
-use crate::shape::{Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed, is_nurbs, is_trimmed};
+use crate::shape::{
+    Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed, is_nurbs, is_screen_text, is_text,
+    is_trimmed,
+};
 
 use super::Geometry;
 use super::state::{Ordering, State, Style};
@@ -38,6 +41,9 @@ impl Walk<'_> {
         placed: NodeId,
         made: Option<&MadeFaces>,
     ) {
+        if self.options.like_coin && is_screen_text(class) {
+            return;
+        }
         let style = if self.options.like_coin {
             Style::Filled
         } else {
@@ -106,6 +112,10 @@ impl Walk<'_> {
                 light_set,
                 environment: state.environment_id,
             });
+            if is_text(class) {
+                let strings = graph.node(id).value("string").texts().to_vec();
+                self.builder.text(strings, is_screen_text(class));
+            }
         }
     }
 

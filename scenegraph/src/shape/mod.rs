@@ -17,6 +17,7 @@ mod outline;
 mod primitives;
 mod profiles;
 mod texcoords;
+mod text;
 mod values;
 
 use glam::DVec3;
@@ -36,6 +37,7 @@ pub(crate) use attributes::{Attributes, has_texcoords};
 pub(crate) use made::{Complaint, MadeFaces, elevation_grid, extrusion};
 pub(crate) use nurbs::{is_nurbs, is_trimmed};
 pub(crate) use primitives::is_closed;
+pub(crate) use text::{is_screen_text, is_text};
 
 /// All that a mesh depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -55,6 +57,8 @@ struct MeshKey {
     chord: Option<u64>,
     style: Style,
     lit: bool,
+    /// Font, size and profile, for text.
+    text: Option<text::TextKey>,
 }
 
 /// A mesh that was made, and what its material must know.
@@ -75,6 +79,7 @@ pub struct ShapeMaker {
     assembler: Assembler,
     /// The arrays of an earlier shape, for the next one to fill.
     spare: faces::Spare,
+    glyphs: text::GlyphCache,
     bytes: usize,
 }
 
@@ -125,6 +130,7 @@ impl ShapeMaker {
             chord: job.chord.map(f64::to_bits),
             style: job.style,
             lit: job.lit,
+            text: is_text(job.class).then(|| text::TextKey::of(state)),
         }
     }
 
@@ -174,7 +180,7 @@ impl ShapeMaker {
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
-        let made = measure::measure(job, attributes).map(|measure| Made {
+        let made = measure::measure(job, attributes, &mut self.glyphs).map(|measure| Made {
             lit: measure.topology == Topology::Triangles,
             textured: job.state.texture.is_some(),
             mesh: keep(measure),
@@ -195,6 +201,10 @@ impl ShapeMaker {
                     .and_then(|m| outline::styled_primitive(m, job.style))
             }
             _ if is_nurbs(job.class) => nurbs::mesh(job, attributes, remarks),
+            Class::Text2 | Class::Text3 | Class::AsciiText => {
+                text::mesh(job, attributes, &mut self.glyphs, remarks)
+                    .and_then(|m| outline::styled_primitive(m, job.style))
+            }
             Class::LineSet | Class::IndexedLineSet => {
                 let mut segments = lines::segments(job, attributes, remarks);
                 self.assembler
@@ -228,6 +238,9 @@ impl ShapeMaker {
                 class,
                 Class::Cube
                     | Class::Sphere
+                    | Class::Text2
+                    | Class::Text3
+                    | Class::AsciiText
                     | Class::Cone
                     | Class::Cylinder
                     | Class::FaceSet
