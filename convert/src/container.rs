@@ -2,7 +2,8 @@
 
 use std::io::Write;
 
-use crate::{Error, Plan, Report};
+use crate::plan::Plan;
+use crate::{Error, Report};
 
 const GLB_MAGIC: u32 = 0x4654_6c67;
 const GLB_VERSION: u32 = 2;

@@ -90,9 +90,19 @@ pub(crate) fn texture(json: &mut Json, texture: &Texture) {
     });
 }
 
-/// Says that values which are left out equal Inventor's defaults.
-pub(crate) fn asset(json: &mut Json) {
-    iv(json, |json| json.key("version").u64(VERSION));
+/// Says that values which are left out equal Inventor's defaults. A source stands here if there is
+/// no scene to hold it.
+pub(crate) fn asset(json: &mut Json, source: Option<&str>) {
+    iv(json, |json| {
+        json.key("version").u64(VERSION);
+        write_source(json, source);
+    });
+}
+
+fn write_source(json: &mut Json, source: Option<&str>) {
+    if let Some(source) = source {
+        json.key("source").raw(source);
+    }
 }
 
 pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
@@ -171,9 +181,10 @@ pub(crate) fn node<'a>(
     });
 }
 
-pub(crate) fn scene(json: &mut Json, scene: &Scene) {
+pub(crate) fn scene(json: &mut Json, scene: &Scene, source: Option<&str>) {
     let default = Environment::default();
     iv(json, |json| {
+        write_source(json, source);
         let plain = |e: &Environment| Environment {
             pos: default.pos,
             ..e.clone()

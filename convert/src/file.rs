@@ -10,8 +10,10 @@ use scenegraph::scene::Scene;
 use tempfile::NamedTempFile;
 
 use crate::blocks::Blocks;
+use crate::plan::Plan;
+use crate::prepare::Prepared;
 use crate::texture::TextureLoader;
-use crate::{Container, Error, Options, Plan, Report};
+use crate::{Container, Error, Options, Report};
 
 /// Converts a scene to the file `path`, in the container that the options name. A `.gltf` gets
 /// its `.bin` files beside it, under its own name; further ones are numbered.
@@ -36,7 +38,8 @@ pub fn write_file(
             reason,
         });
     }
-    let plan = Plan::new(scene, options, textures)?;
+    let prepared = Prepared::new(scene, options)?;
+    let plan = Plan::new(&prepared, options, textures)?;
     match options.container {
         Container::Glb => {
             let mut file = Pending::beside(path)?;

@@ -15,6 +15,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use scenegraph::scene::{NodeId, Placement, Scene};
 
 use crate::extras::Scope;
+use crate::formats::Formats;
 use crate::frame::{is_rotation, uniform_scale};
 use crate::json::Json;
 use crate::{camera, extras, light};
@@ -53,13 +54,16 @@ enum Member {
 }
 
 impl<'s> Hierarchy<'s> {
-    /// `meshes` are the glTF meshes of the instances.
-    pub(crate) fn new(scene: &'s Scene, meshes: &[u32]) -> Self {
+    /// `meshes` are the glTF meshes of the instances, `formats` those of the scene's meshes.
+    pub(crate) fn new(scene: &'s Scene, formats: &[Formats], meshes: &[u32]) -> Self {
         let mut builder = Builder::new(scene);
         for (instance, &mesh) in scene.instances.iter().zip(meshes) {
             let origin = scene.meshes[instance.mesh.index()].origin;
             let placement = &instance.placement;
-            let local = placement.parent_from_local * DAffine3::from_translation(origin);
+            let mut local = placement.parent_from_local * DAffine3::from_translation(origin);
+            if let Some(step) = formats[instance.mesh.index()].positions.step() {
+                local.matrix3 *= f64::from(step);
+            }
             builder.add_item(placement.node, &placement.name, local, Content::Mesh(mesh));
             builder.set_scope(Scope {
                 light_set: instance.light_set.0,
@@ -87,11 +91,22 @@ impl<'s> Hierarchy<'s> {
         builder.finish()
     }
 
+    /// Whether there is nothing to write.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.roots.is_empty()
+    }
+
     /// `scenes` and `nodes`; gives the number of nodes. Children follow their parents, and those
     /// of one parent stand together.
-    pub(crate) fn write(&self, json: &mut Json, scene: &Scene, with_extras: bool) -> usize {
+    pub(crate) fn write(
+        &self,
+        json: &mut Json,
+        scene: &Scene,
+        with_extras: bool,
+        source: Option<&str>,
+    ) -> usize {
         // A scene without nodes is legal, but readers refuse it.
-        if self.roots.is_empty() {
+        if self.is_empty() {
             return 0;
         }
         json.key("scene").u64(0);
@@ -99,7 +114,7 @@ impl<'s> Hierarchy<'s> {
             json.object(|json| {
                 json.array_unless_empty("nodes", 0..self.roots.len(), Json::usize);
                 if with_extras {
-                    extras::scene(json, scene);
+                    extras::scene(json, scene, source);
                 }
             });
         });

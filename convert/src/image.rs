@@ -157,6 +157,16 @@ fn sniff(bytes: &[u8], name: &str) -> Option<Format> {
     tga.then_some(Format::Known(ImageFormat::Tga))
 }
 
+/// The usual extension of a file with these bytes; PNG's for what is not known.
+pub(crate) fn extension_of(bytes: &[u8]) -> &'static str {
+    match sniff(bytes, "") {
+        Some(Format::Sgi) => "rgb",
+        Some(Format::Known(ImageFormat::Jpeg)) => "jpg",
+        Some(Format::Known(known)) => known.extensions_str().first().copied().unwrap_or("png"),
+        None => "png",
+    }
+}
+
 fn limits() -> Limits {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_IMAGE_SIDE);

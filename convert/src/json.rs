@@ -97,6 +97,12 @@ impl Json {
         }
     }
 
+    /// Text that is JSON already.
+    pub(crate) fn raw(&mut self, json: &str) {
+        self.separate();
+        self.out.extend_from_slice(json.as_bytes());
+    }
+
     pub(crate) fn bool(&mut self, value: bool) {
         self.separate();
         self.out

@@ -1,6 +1,6 @@
 //! Open Inventor to glTF 2.0.
 //!
-//! [`Scene`] in, `.glb` or `.gltf` out. Two passes: a [`Plan`] decides
+//! [`Scene`] in, `.glb` or `.gltf` out. Two passes: a plan decides
 //! everything and measures it, then the output is streamed from the scene's own arrays, so that
 //! memory holds little more than the scene and the JSON text.
 //!
@@ -13,7 +13,8 @@
 //! - what glTF cannot carry is listed in the [`Report`], and Inventor's own values are in
 //!   `extras.iv`, under the names of Inventor's fields.
 //!
-//! [`read_gltf`] is the way back, for files of others too.
+//! [`read_gltf`] is the way back, for files of others too; [`gltf_to_inventor`] goes on to Inventor
+//! text.
 //!
 //! No question of Inventor's is asked here: defaults, inheritance and bindings are resolved in the
 //! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
@@ -25,10 +26,12 @@ mod bounds;
 mod camera;
 mod color;
 pub mod command;
+mod compress;
 mod container;
 mod error;
 mod extras;
 mod file;
+mod formats;
 mod frame;
 mod hierarchy;
 mod image;
@@ -39,27 +42,36 @@ mod loss;
 mod material;
 mod mesh;
 mod options;
+mod parallel;
 mod pixels;
 mod plan;
+mod prepare;
 mod read;
 mod remarks;
 mod report;
+mod round_trip;
 mod sound;
 mod texture;
+mod to_inventor;
 
 use std::io::Write;
 
+use plan::Plan;
+use prepare::Prepared;
 use scenegraph::scene::Scene;
 
 pub use error::Error;
 pub use file::write_file;
 pub use loss::{Effect, Loss, LossKind, losses_markdown};
-pub use options::{Container, Options};
+pub use options::{Container, Options, Quantize, Weld};
 pub use pixels::Pixels;
-pub use plan::Plan;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
+pub use round_trip::{Recorder, write_file_with_source, write_glb_with_source};
 pub use texture::TextureLoader;
+pub use to_inventor::{
+    InventorCounts, InventorFiles, InventorOptions, Note, gltf_to_inventor, is_gltf,
+};
 
 /// Writes a scene as `.glb`, whatever container the options name. Wants a buffered stream.
 ///
@@ -77,7 +89,8 @@ pub fn write_glb(
         container: Container::Glb,
         ..options.clone()
     };
-    Plan::new(scene, &options, textures)?.write_glb(out)
+    let prepared = Prepared::new(scene, &options)?;
+    Plan::new(&prepared, &options, textures)?.write_glb(out)
 }
 
 /// Writes a scene as `.gltf` text and one `.bin`, whatever container the options name. `bin_uri`
@@ -100,7 +113,8 @@ pub fn write_gltf(
         container: Container::GltfBin,
         ..options.clone()
     };
-    let plan = Plan::new(scene, &options, textures)?;
+    let prepared = Prepared::new(scene, &options)?;
+    let plan = Plan::new(&prepared, &options, textures)?;
     match plan.layout.buffers.len() {
         0 => {}
         1 => plan.write_buffer(0, bin_out)?,

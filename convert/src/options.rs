@@ -1,4 +1,6 @@
-//! What the caller can choose: plain data.
+//! What the caller can choose: plain data. docs/OPTIONS.md says what each choice costs.
+
+use std::sync::Arc;
 
 /// The form of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -10,7 +12,7 @@ pub enum Container {
 }
 
 /// Options of a conversion.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The form of the output.
     pub container: Container,
@@ -21,6 +23,20 @@ pub struct Options {
     /// Largest length of one `.bin`; what is more goes into further ones. Web loaders and 32-bit
     /// readers fail beyond 32 bits.
     pub max_bin_bytes: u64,
+    /// JSON that goes into `extras.iv.source` of the scene as it is; see
+    /// [`write_file_with_source`](crate::write_file_with_source).
+    pub source: Option<Arc<str>>,
+    /// Which vertices triangles share.
+    pub weld: Weld,
+    /// Whether triangles and vertices are put in an order that suits graphics devices.
+    pub optimize: bool,
+    /// How far positions and normals may move to take less room; `None`: not at all.
+    pub quantize: Option<Quantize>,
+    /// Whether the numbers of meshes are compressed (`EXT_meshopt_compression`). Includes
+    /// `optimize`, in an order that suits the compression.
+    pub compress: bool,
+    /// Most threads that work on meshes. The output does not depend on it.
+    pub threads: usize,
 }
 
 impl Default for Options {
@@ -30,6 +46,45 @@ impl Default for Options {
             extras: true,
             max_glb_bytes: u64::from(u32::MAX),
             max_bin_bytes: u64::from(u32::MAX),
+            source: None,
+            weld: Weld::Shared,
+            optimize: false,
+            quantize: None,
+            compress: false,
+            threads: 1,
+        }
+    }
+}
+
+/// Which vertices triangles, lines and points share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Weld {
+    /// Those that are equal as they are stored.
+    Shared,
+    /// None: each corner has a vertex of its own.
+    Apart,
+}
+
+/// Numbers in fewer bits (`KHR_mesh_quantization`), and how far they may be off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantize {
+    /// Farthest that a position may move, in the units of the scene handed over.
+    pub tolerance: f64,
+    /// Widest angle that a normal may turn by, in radians.
+    pub normal_tolerance_rad: f64,
+}
+
+impl Quantize {
+    /// Widest angle that a normal may turn by if nothing else is asked for: half a degree, which
+    /// eight bits keep.
+    pub const NORMAL_TOLERANCE_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
+
+    /// With this tolerance of positions, in the units of the scene.
+    #[must_use]
+    pub fn within(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            normal_tolerance_rad: Self::NORMAL_TOLERANCE_RAD,
         }
     }
 }

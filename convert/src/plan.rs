@@ -6,18 +6,20 @@ use rustc_hash::FxHashMap;
 use scenegraph::scene::{Instance, MaterialId, MeshId, Scene, Topology};
 
 use crate::bounds::Bounds;
+use crate::formats::{Formats, Normals, Positions};
 use crate::hierarchy::Hierarchy;
 use crate::json::Json;
 use crate::layout::{Layout, Needs};
 use crate::material::{GltfMaterial, Surroundings, VertexColors};
 use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_texture};
+use crate::prepare::Prepared;
 use crate::remarks::Remarks;
 use crate::texture::{TextureLoader, Textures};
-use crate::{Container, Error, Options, Report, binary, camera, extras, light, sound};
+use crate::{Container, Error, Options, Report, binary, camera, extras, light};
 
 /// A conversion with everything decided and measured: which materials, meshes, nodes and images
 /// there are, and where each number goes.
-pub struct Plan<'s> {
+pub(crate) struct Plan<'s> {
     pub(crate) scene: &'s Scene,
     pub(crate) options: Options,
     textures: Textures<'s>,
@@ -36,15 +38,14 @@ impl<'s> Plan<'s> {
     ///
     /// # Errors
     ///
-    /// [`Error::Scene`] if the scene breaks one of its guarantees, [`Error::BinTooLarge`] if one
-    /// array does not fit into a `.bin`.
-    pub fn new(
-        scene: &'s Scene,
+    /// [`Error::BinTooLarge`] if one array does not fit into a `.bin`.
+    pub(crate) fn new(
+        prepared: &'s Prepared<'_>,
         options: &Options,
         loader: &'s dyn TextureLoader,
     ) -> Result<Self, Error> {
-        sound::check(scene)?;
-        let mut gathering = Gathering::new(scene, loader);
+        let scene = &*prepared.scene;
+        let mut gathering = Gathering::new(scene, &prepared.formats, loader);
         let meshes_of_instances: Vec<u32> = scene
             .instances
             .iter()
@@ -65,7 +66,12 @@ impl<'s> Plan<'s> {
             Container::GltfBin => options.max_bin_bytes,
         };
         let image_lens = (0..textures.image_count()).map(|i| textures.image_bytes(i).len() as u64);
-        let layout = Layout::new(scene, &needs, image_lens, max_buffer_bytes)?;
+        let layout = if options.compress {
+            let threads = options.threads;
+            Layout::compressed(scene, &needs, image_lens, max_buffer_bytes, threads)?
+        } else {
+            Layout::new(scene, &needs, image_lens, max_buffer_bytes)?
+        };
         let mut report = Report {
             losses: remarks.into_losses(),
             warnings: textures.take_warnings(),
@@ -84,7 +90,7 @@ impl<'s> Plan<'s> {
             .sum();
         Ok(Self {
             bounds: Bounds::of(scene, &needs),
-            hierarchy: Hierarchy::new(scene, &meshes_of_instances),
+            hierarchy: Hierarchy::new(scene, &prepared.formats, &meshes_of_instances),
             scene,
             options: options.clone(),
             textures,
@@ -96,18 +102,15 @@ impl<'s> Plan<'s> {
         })
     }
 
-    /// What is lost and missing; the counts of nodes and bytes are known after writing.
-    pub fn report(&self) -> &Report {
-        &self.report
-    }
-
     pub(crate) fn write_buffer(&self, buffer: usize, out: &mut dyn Write) -> io::Result<()> {
-        binary::write_buffer(buffer, &self.layout, self.scene, &self.textures, out)
+        let (layout, needs) = (&self.layout, &self.needs);
+        binary::write_buffer(buffer, layout, self.scene, needs, &self.textures, out)
     }
 
     /// The glTF text, and the number of its nodes; `uri_of` names the files of the buffers.
     pub(crate) fn json(&self, uri_of: impl Fn(usize) -> Option<String>) -> (Vec<u8>, usize) {
         let with_extras = self.options.extras;
+        let source = self.options.source.as_deref();
         // About what a node and an accessor take, so that the text need not move often.
         let guess = 1024 + 160 * self.scene.instances.len() + 170 * self.layout.accessors.len();
         let mut json = Json::with_capacity(guess);
@@ -118,12 +121,13 @@ impl<'s> Plan<'s> {
                 json.key("generator")
                     .str(concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")));
                 if with_extras {
-                    extras::asset(json);
+                    extras::asset(json, source.filter(|_| self.hierarchy.is_empty()));
                 }
             });
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
+            json.array_unless_empty("extensionsRequired", self.required(), Json::str);
             self.write_lights(json);
-            nodes = self.hierarchy.write(json, self.scene, with_extras);
+            nodes = self.hierarchy.write(json, self.scene, with_extras, source);
             json.array_unless_empty("cameras", &self.scene.cameras, |json, camera| {
                 camera::write(json, camera, self.bounds.as_ref(), with_extras);
             });
@@ -159,9 +163,37 @@ impl<'s> Plan<'s> {
         });
     }
 
+    /// Whether some number has a form that only `KHR_mesh_quantization` allows.
+    fn is_quantized(&self) -> bool {
+        self.needs.iter().flatten().any(|needs| {
+            let Formats {
+                positions, normals, ..
+            } = needs.formats;
+            let short_normals = needs.attributes.normals && normals != Normals::F32;
+            positions != Positions::F32 || short_normals
+        })
+    }
+
+    fn is_compressed(&self) -> bool {
+        !self.layout.stored.is_empty()
+    }
+
+    /// The extensions without which the file cannot be shown.
+    fn required(&self) -> impl Iterator<Item = &'static str> {
+        let required = [
+            ("EXT_meshopt_compression", self.is_compressed()),
+            ("KHR_mesh_quantization", self.is_quantized()),
+        ];
+        required
+            .into_iter()
+            .filter(|(_, required)| *required)
+            .map(|(name, _)| name)
+    }
+
     fn extensions(&self) -> impl Iterator<Item = &'static str> {
         let any = |test: fn(&GltfMaterial) -> bool| self.materials.iter().any(test);
         let used = [
+            ("EXT_meshopt_compression", self.is_compressed()),
             ("KHR_lights_punctual", !self.scene.lights.is_empty()),
             (
                 "KHR_materials_ior",
@@ -169,6 +201,7 @@ impl<'s> Plan<'s> {
             ),
             ("KHR_materials_specular", any(|m| !m.unlit)),
             ("KHR_materials_unlit", any(|m| m.unlit)),
+            ("KHR_mesh_quantization", self.is_quantized()),
         ];
         used.into_iter()
             .filter(|(_, used)| *used)
@@ -179,6 +212,7 @@ impl<'s> Plan<'s> {
 /// Meshes and materials being gathered from the instances, in their order.
 struct Gathering<'s> {
     scene: &'s Scene,
+    formats: &'s [Formats],
     textures: Textures<'s>,
     materials: Vec<GltfMaterial>,
     material_of: FxHashMap<(MaterialId, Surroundings), u32>,
@@ -190,9 +224,10 @@ struct Gathering<'s> {
 }
 
 impl<'s> Gathering<'s> {
-    fn new(scene: &'s Scene, loader: &'s dyn TextureLoader) -> Self {
+    fn new(scene: &'s Scene, formats: &'s [Formats], loader: &'s dyn TextureLoader) -> Self {
         Self {
             scene,
+            formats,
             textures: Textures::new(scene, loader),
             materials: Vec::new(),
             material_of: FxHashMap::default(),
@@ -212,6 +247,7 @@ impl<'s> Gathering<'s> {
         }
         let needs = self.needs[instance.mesh.index()].get_or_insert_with(|| Needs {
             facts: Facts::of(source),
+            formats: self.formats[instance.mesh.index()],
             attributes: Attributes::default(),
         });
         let colors = needs.facts.colors;

@@ -174,7 +174,7 @@ impl<'s> Remarks<'s> {
 
 /// The place of a cause; that of the shape where values come from nowhere in the source.
 fn known(cause: SourcePos, shape: SourcePos) -> SourcePos {
-    if cause.line > 0 { cause } else { shape }
+    if cause.is_known() { cause } else { shape }
 }
 
 /// The light as the source calls it, or its class.

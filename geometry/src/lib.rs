@@ -20,15 +20,19 @@
 //! | [`normal`] | face normals and crease-angle vertex normals |
 //! | [`weld`] | which vertices are bitwise equal |
 //! | [`local_origin`] | the point that `f32` positions should be stored relative to |
+//! | [`generalized_cylinder`] | a cross section swept along a spine |
+//! | [`nurbs`] | rational B-spline curves and surfaces as segments and triangles |
 //! | [`num`] | rounding bounds |
 //!
 //! Nothing here knows of nodes, files or materials.
 
 pub mod bounds;
+pub mod generalized_cylinder;
 pub mod local_origin;
 mod newell;
 pub mod normal;
 pub mod num;
+pub mod nurbs;
 #[cfg(test)]
 mod test_rng;
 pub mod transform;

@@ -17,15 +17,53 @@ pub enum Severity {
     Error,
 }
 
-/// A place in a file: line and column count from 1, columns in bytes. Line 0 means "no place".
+/// A place in a file: line and column count from 1, columns in bytes. In a binary file the line is
+/// 0 and the column counts all bytes; both are 0 where the place is not known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SourcePos {
     /// Index into the list of files read (0 = the file named by the user).
     pub file: u32,
-    /// Line, from 1; 0 when the place is not known.
+    /// Line, from 1; 0 when the place is not known, and in a binary file.
     pub line: u32,
-    /// Column in bytes, from 1.
+    /// Column in bytes, from 1; in a binary file one more than the byte's offset.
     pub column: u32,
+}
+
+impl SourcePos {
+    /// The byte at an offset of a binary file.
+    pub fn at_byte(file: u32, offset: usize) -> Self {
+        Self {
+            file,
+            line: 0,
+            column: u32::try_from(offset).map_or(u32::MAX, |offset| offset.saturating_add(1)),
+        }
+    }
+
+    /// Whether there is a place.
+    pub fn is_known(self) -> bool {
+        self.column > 0
+    }
+
+    /// Line and column, in a text.
+    pub fn line_and_column(self) -> Option<(u32, u32)> {
+        (self.line > 0).then_some((self.line, self.column))
+    }
+
+    /// The offset, in a binary file.
+    pub fn byte(self) -> Option<u32> {
+        (self.line == 0 && self.column > 0).then(|| self.column - 1)
+    }
+}
+
+/// As it stands behind a file's name: `:12:5`, or `:byte 1234` in a binary file.
+impl fmt::Display for SourcePos {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.line_and_column(), self.byte()) {
+            (Some((line, column)), _) => write!(f, ":{line}:{column}"),
+            (None, Some(byte)) => write!(f, ":byte {byte}"),
+            (None, None) => Ok(()),
+        }
+    }
 }
 
 /// The text around a place, kept for display.
@@ -70,10 +108,7 @@ impl fmt::Display for Severity {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file)?;
-        if self.pos.line > 0 {
-            write!(f, ":{}:{}", self.pos.line, self.pos.column)?;
-        }
+        write!(f, "{}{}", self.file, self.pos)?;
         write!(f, ": {}[{}]: {}", self.severity, self.code, self.message)?;
         let number = self.pos.line.to_string();
         if let Some(snippet) = &self.snippet {

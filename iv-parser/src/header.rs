@@ -56,6 +56,9 @@ impl Header {
     }
 }
 
+/// Bytes in which a header stands, where it is asked for alone.
+const HEADER_REACH: usize = 256;
+
 fn version(input: &[u8]) -> IResult<&[u8], (u8, u8)> {
     let (input, _) = one_of("Vv")(input)?;
     separated_pair(small_number, char('.'), small_number).parse(input)
@@ -165,6 +168,14 @@ pub fn read_header(bytes: &[u8], problems: &mut Vec<Problem>) -> (Header, usize)
         ),
     }
     (Header::ASSUMED, at)
+}
+
+/// Whether the first line says that what follows is binary.
+pub fn is_binary(bytes: &[u8]) -> bool {
+    let mut ignored = Vec::new();
+    // The header is all that is looked at.
+    let start = &bytes[..bytes.len().min(HEADER_REACH)];
+    read_header(start, &mut ignored).0.encoding == Encoding::Binary
 }
 
 /// What a file without our header is, and what to do with it, if its first bytes tell.

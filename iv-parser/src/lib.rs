@@ -11,6 +11,7 @@
 //! assert_eq!(parse.tree.node(door).class, b"Cube");
 //! ```
 
+mod binary;
 mod diagnostic;
 mod header;
 mod lex;
@@ -23,11 +24,12 @@ mod source;
 mod text;
 mod tree;
 
+pub use binary::{ClassShape, Schema, ValueKind, ValueType, has_binary_form, print_binary};
 pub use diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
 pub use header::{Dialect, Encoding, Header};
 pub use limits::Limits;
 pub use list::{List, Part};
-pub use parse::{Parse, parse, parse_with};
+pub use parse::{Parse, parse, parse_any, parse_with};
 pub use print::{Layout, print};
 pub use source::{LineCounter, Problem, Source, Span};
 pub use text::{decode_string, text_of};

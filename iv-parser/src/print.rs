@@ -7,6 +7,7 @@
 use std::io::{self, Write};
 
 use crate::header::{Dialect, Encoding};
+use crate::text::{encode_name, encode_string};
 use crate::tree::{Atom, Child, Field, FieldId, Form, Item, NodeId, Numbers, Tree, Value};
 
 /// What the printer asks about a field: how to lay out its numbers.
@@ -20,7 +21,8 @@ pub trait Layout {
 enum Step<'t, 'a> {
     Body(NodeId, usize),
     Interface(NodeId, usize),
-    Atoms(&'t [Atom<'a>], usize),
+    /// Atoms of which each so many have a comma behind them.
+    Atoms(&'t [Atom<'a>], usize, usize),
     CloseList,
     Tail(&'t Field<'a>),
     Output(&'a [u8]),
@@ -70,7 +72,7 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
             match step {
                 Step::Body(node, next) => self.body(node, next)?,
                 Step::Interface(node, next) => self.interface(node, next)?,
-                Step::Atoms(atoms, next) => self.atoms(atoms, next)?,
+                Step::Atoms(atoms, next, group) => self.atoms(atoms, next, group)?,
                 Step::CloseList => self.out.write_all(b" ]")?,
                 Step::Tail(field) => self.tail(field)?,
                 Step::Output(name) => {
@@ -94,7 +96,7 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
             Child::Null => self.out.write_all(b"NULL"),
             Child::Use(name, _) => {
                 self.out.write_all(b"USE ")?;
-                self.out.write_all(name)
+                self.name(name)
             }
             Child::Node(id) => {
                 let node = self.tree.node(id);
@@ -113,7 +115,7 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
                 }
                 if let Some(name) = node.def {
                     self.out.write_all(b"DEF ")?;
-                    self.out.write_all(name)?;
+                    self.name(name)?;
                     self.out.write_all(b" ")?;
                 }
                 self.out.write_all(if node.class.is_empty() {
@@ -230,7 +232,11 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
                 if *bracketed {
                     self.steps.push(Step::CloseList);
                 }
-                self.steps.push(Step::Atoms(self.tree.atoms(*atoms), 0));
+                // Descriptions of fields are pairs of a type and a name.
+                let is_pairs = matches!(field.name, b"fields" | b"inputs");
+                let group = if is_pairs { 2 } else { 1 };
+                let atoms = self.tree.atoms(*atoms);
+                self.steps.push(Step::Atoms(atoms, 0, group));
                 Ok(())
             }
             Value::Numbers {
@@ -252,26 +258,39 @@ impl<'t, 'a> Printer<'t, 'a, '_> {
         }
     }
 
-    fn atoms(&mut self, atoms: &'t [Atom<'a>], next: usize) -> io::Result<()> {
+    fn atoms(&mut self, atoms: &'t [Atom<'a>], next: usize, group: usize) -> io::Result<()> {
         let Some(atom) = atoms.get(next) else {
             return Ok(());
         };
         if next > 0 {
-            self.out.write_all(b", ")?;
+            let ends_group = next.is_multiple_of(group);
+            self.out.write_all(if ends_group { b", " } else { b" " })?;
         }
-        self.steps.push(Step::Atoms(atoms, next + 1));
+        self.steps.push(Step::Atoms(atoms, next + 1, group));
         match atom {
             Atom::Number(value, _) => write_number(self.out, *value),
-            Atom::String(raw, _) => {
-                self.out.write_all(b"\"")?;
-                self.out.write_all(raw)?;
-                // A backslash at the end would take the quote with it, unless a line end follows.
-                let backslash =
-                    raw.last() == Some(&b'\\') && self.tree.header.dialect != Dialect::Vrml2;
-                self.out.write_all(if backslash { b"\"\n" } else { b"\"" })
-            }
+            Atom::String(raw, _) => self.string(raw),
             Atom::Word(word, _) => self.out.write_all(word),
             Atom::Child(child) => self.child(*child),
+        }
+    }
+
+    fn string(&mut self, raw: &[u8]) -> io::Result<()> {
+        self.out.write_all(b"\"")?;
+        match self.tree.header.encoding {
+            Encoding::Ascii => self.out.write_all(raw)?,
+            Encoding::Binary => self.out.write_all(&encode_string(raw))?,
+        }
+        // A backslash at the end would take the quote with it, unless a line end follows.
+        let backslash = raw.last() == Some(&b'\\') && self.tree.header.dialect != Dialect::Vrml2;
+        self.out.write_all(if backslash { b"\"\n" } else { b"\"" })
+    }
+
+    /// The name of a definition; of a binary file, where it can be anything, as text can have it.
+    fn name(&mut self, name: &[u8]) -> io::Result<()> {
+        match self.tree.header.encoding {
+            Encoding::Ascii => self.out.write_all(name),
+            Encoding::Binary => self.out.write_all(&encode_name(name)),
         }
     }
 

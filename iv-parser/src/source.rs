@@ -5,6 +5,7 @@ use std::sync::Arc;
 use memchr::{memchr, memchr_iter, memrchr};
 
 use crate::diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
+use crate::header::is_binary;
 
 /// A range of bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -93,6 +94,9 @@ impl Source<'_> {
     }
 
     fn snippet(&self, at: usize, end: usize) -> Option<Snippet> {
+        if is_binary(self.bytes) {
+            return None;
+        }
         let is_end = |b: &u8| *b == b'\n' || *b == b'\r';
         let line_start = self.bytes[..at]
             .iter()
@@ -136,7 +140,30 @@ pub struct LineCounter {
     line: u32,
     line_start: usize,
     counted_to: usize,
-    ends_at_cr: Option<bool>,
+    lines: Option<Lines>,
+}
+
+/// What ends the lines of a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lines {
+    /// LF, also behind CR.
+    Lf,
+    /// A lone CR, as on old Macintoshes.
+    Cr,
+    /// A binary file has none: its places are bytes.
+    None,
+}
+
+impl Lines {
+    fn of(bytes: &[u8]) -> Self {
+        if is_binary(bytes) {
+            Self::None
+        } else if memchr(b'\n', bytes).is_some() {
+            Self::Lf
+        } else {
+            Self::Cr
+        }
+    }
 }
 
 impl LineCounter {
@@ -147,7 +174,7 @@ impl LineCounter {
             line: 1,
             line_start: 0,
             counted_to: 0,
-            ends_at_cr: None,
+            lines: None,
         }
     }
 
@@ -157,11 +184,11 @@ impl LineCounter {
         if at < self.counted_to {
             *self = Self::new(self.file);
         }
-        // A text without any LF has old Macintosh line ends.
-        let ends_at_cr = *self
-            .ends_at_cr
-            .get_or_insert_with(|| memchr(b'\n', bytes).is_none());
-        let end = if ends_at_cr { b'\r' } else { b'\n' };
+        let end = match *self.lines.get_or_insert_with(|| Lines::of(bytes)) {
+            Lines::None => return SourcePos::at_byte(self.file, at),
+            Lines::Lf => b'\n',
+            Lines::Cr => b'\r',
+        };
         let passed = &bytes[self.counted_to..at];
         self.line += memchr_iter(end, passed).count() as u32;
         if let Some(i) = memrchr(end, passed) {

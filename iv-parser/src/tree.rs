@@ -3,11 +3,14 @@
 //! Names are borrowed from the source. Numbers stand in bulk: a few in two pools, more in shared
 //! arrays that later stages can take parts of without copying.
 
-use crate::header::Header;
+use std::borrow::Cow;
+
+use crate::header::{Encoding, Header};
 use crate::lex;
 use crate::list::{List, Lists, Part};
 use crate::number;
 use crate::source::Span;
+use crate::text::decode_string;
 
 /// Index of a [`Node`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -186,7 +189,7 @@ pub enum Numbers {
 pub enum Atom<'a> {
     /// A number.
     Number(f64, Span),
-    /// The raw text between quotes.
+    /// The raw text between quotes; of a binary file, the string itself. See [`Tree::string`].
     String(&'a [u8], Span),
     /// An unquoted word.
     Word(&'a [u8], Span),
@@ -213,6 +216,10 @@ pub struct Tree<'a> {
     /// In order of their fields.
     pub(crate) declarations: Vec<(FieldId, Declaration<'a>)>,
 }
+
+/// Runs at least this long can be passed on without copying: more than a value of a field that
+/// takes one value has, but for matrices.
+const MANY: usize = 5;
 
 impl<'a> Node<'a> {
     pub(crate) fn new(class: &'a [u8], def: Option<&'a [u8]>, span: Span) -> Self {
@@ -245,6 +252,38 @@ impl<'a> Tree<'a> {
             float_lists: Lists::default(),
             roots: Vec::new(),
             declarations: Vec::new(),
+        }
+    }
+
+    /// Keeps a run of integers, and leaves the buffer empty.
+    pub(crate) fn add_ints(&mut self, run: &mut Vec<i32>) -> Numbers {
+        if run.len() >= MANY {
+            let part = self.int_lists.add(run);
+            run.clear();
+            return Numbers::ManyInts(part);
+        }
+        let start = self.ints.len() as u32;
+        self.ints.append(run);
+        Numbers::Ints(start, self.ints.len() as u32)
+    }
+
+    /// Keeps a run of floats, and leaves the buffer empty.
+    pub(crate) fn add_floats(&mut self, run: &mut Vec<f64>) -> Numbers {
+        if run.len() >= MANY {
+            let part = self.float_lists.add(run);
+            run.clear();
+            return Numbers::ManyFloats(part);
+        }
+        let start = self.floats.len() as u32;
+        self.floats.append(run);
+        Numbers::Floats(start, self.floats.len() as u32)
+    }
+
+    /// The bytes that a string of this tree means. Text has escapes, binary files have none.
+    pub fn string<'s>(&self, raw: &'s [u8]) -> Cow<'s, [u8]> {
+        match self.header.encoding {
+            Encoding::Binary => Cow::Borrowed(raw),
+            Encoding::Ascii => decode_string(raw, self.header.dialect),
         }
     }
 

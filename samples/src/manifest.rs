@@ -57,6 +57,7 @@ pub const ALL: &[Sample] = &[
     sample("Crease angle", "shapes/crease_angle.iv", "shapes", "generated normals: sharp, partly smooth, smooth"),
     sample("Stair runner", "shapes/stair_runner.iv", "shapes", "triangle strips with a colour each"),
     sample("Awning", "shapes/awning.iv", "shapes", "a quad mesh with a colour for each quad"),
+    sample("NURBS", "shapes/nurbs.iv", "shapes", "a saddle trimmed by a line and a curve, an exact sphere and a closed curve"),
     sample("Site plan", "shapes/site_plan.iv", "shapes", "unlit lines and points with widths, a pattern and several colours"),
     sample("Crate", "materials/crate_per_face.iv", "materials", "one material for each face"),
     sample("Hipped roof", "materials/roof_per_vertex.iv", "materials", "packed colours chosen by index at every corner"),

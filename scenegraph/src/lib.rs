@@ -7,6 +7,8 @@
 //! 2. [`resolve()`]: one walk over the graph with the traversal state as a value.
 //! 3. [`scene::Scene`]: what the walk leaves: no defaults, no state, no Inventor rule.
 //!
+//! [`write_scene`] is the way back: a resolved scene as Inventor text.
+//!
 //! Files are opened by the [`Loader`] only.
 
 pub mod graph;
@@ -17,9 +19,11 @@ mod remarks;
 mod resolve;
 pub mod scene;
 mod shape;
+mod write;
 
 pub use graph::Graph;
 pub use loader::{FileLoader, LoadError, Loaded, Loader};
 pub use lower::{RegistryLayout, load, load_with};
 pub use resolve::{Geometry, ResolveLimits, ResolveOptions, Resolved, resolve};
 pub use shape::Measure;
+pub use write::{ImageForm, SceneText, write_scene, write_shape};

@@ -88,6 +88,7 @@ pub fn resolve_within(bytes: &[u8], limits: ResolveLimits) -> Resolved {
         geometry,
         like_coin: false,
         limits,
+        ..ResolveOptions::default()
     };
     let mut resolved = scenegraph::resolve(&graph, &options(Geometry::Build));
     assert_eq!(resolved.scene.check(), []);
@@ -165,6 +166,23 @@ pub fn read_gltf(bytes: &[u8]) -> Result<convert::Model, convert::ReadError> {
         items: 100_000,
         ..convert::ReadLimits::default()
     };
+    let loader = FileLoader::default();
+    let model = convert::read_gltf(bytes, "input.glb", Path::new("."), &loader, &limits)?;
+    assert_eq!(model.scene.check(), []);
+    Ok(model)
+}
+
+/// As [`read_gltf`], within the limits that the command has.
+///
+/// # Errors
+///
+/// As [`convert::read_gltf`] does.
+///
+/// # Panics
+///
+/// When a scene breaks its guarantees.
+pub fn read_gltf_within(bytes: &[u8]) -> Result<convert::Model, convert::ReadError> {
+    let limits = convert::ReadLimits::default();
     let loader = FileLoader::default();
     let model = convert::read_gltf(bytes, "input.glb", Path::new("."), &loader, &limits)?;
     assert_eq!(model.scene.check(), []);

@@ -10,5 +10,6 @@ pub mod large;
 pub mod measure;
 pub mod mutate;
 pub mod reference;
+pub mod same_scene;
 pub mod same_tree;
 pub mod shadow_scenes;

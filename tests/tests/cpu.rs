@@ -17,6 +17,9 @@ mod cpu {
     mod roundtrip;
     mod rules;
     mod samples;
+    mod source_back;
+    mod swept;
+    mod to_inventor;
     mod validator;
     mod vrml;
 }

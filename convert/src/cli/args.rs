@@ -6,6 +6,8 @@ use std::thread;
 
 use clap::{Parser, ValueEnum};
 
+use super::choices::Choices;
+
 const USAGE: &str = "\
 ivconvert [OPTIONS] <INPUT>...
        ivconvert --info [--json] <INPUT>...";
@@ -24,6 +26,8 @@ Examples:
         for scripts: exit code 1 if anything is lost, and all messages as JSON
   ivconvert old.iv -o new.iv
         Inventor text again, laid out anew
+  ivconvert house.glb -o house.iv
+        Inventor text of any glTF, with its images beside it
   ivconvert --info house.iv
         what is in the model; nothing is written
 
@@ -32,14 +36,14 @@ Exit codes:
   1  done, but something is lost or could not be used (only with --strict)
   2  something failed; all other inputs are done";
 
-/// Converts Open Inventor models to glTF.
+/// Converts Open Inventor models to glTF, and glTF to Open Inventor.
 ///
 /// Each input is converted by itself; what glTF cannot carry is listed, and so is all that is
 /// wrong with the input. An output file is written whole or not at all.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ivconvert", version, override_usage = USAGE, after_help = EXAMPLES)]
 pub struct Args {
-    /// Models, or folders that are searched for .iv and .wrl files
+    /// Models, or folders that are searched for .iv and .wrl files; .glb and .gltf for -o x.iv
     #[arg(value_name = "INPUT", required = true)]
     pub inputs: Vec<PathBuf>,
 
@@ -82,13 +86,26 @@ pub struct Args {
     #[arg(long)]
     pub no_extras: bool,
 
+    /// Puts the source into the output too, so that `ivconvert x.glb -o x.iv` gives it back byte for
+    /// byte, with what was edited in between. The output grows by about the compressed length of the
+    /// source and a third; the conversion takes twice as long
+    #[arg(long, conflicts_with = "no_extras")]
+    pub round_trip: bool,
+
+    /// Puts images into an Inventor text made of glTF, instead of files beside it
+    #[arg(long)]
+    pub embed: bool,
+    #[command(flatten)]
+    pub choices: Choices,
+
     /// Prints errors only
     #[arg(short, long)]
     pub quiet: bool,
 
     /// Shows what is in the inputs and writes no files
     #[arg(long, conflicts_with_all = [
-        "output", "out_dir", "format", "report", "timings", "strict", "no_extras",
+        "output", "out_dir", "format", "report", "timings", "strict", "no_extras", "round_trip", "embed",
+        "Choices",
     ])]
     pub info: bool,
 
@@ -104,7 +121,7 @@ pub enum Format {
     Glb,
     /// glTF 2.0 as JSON text with its numbers in a .bin file beside it
     Gltf,
-    /// Inventor text, laid out anew: nothing is left out but comments
+    /// Inventor text: of Inventor laid out anew, of glTF made anew
     Iv,
 }
 

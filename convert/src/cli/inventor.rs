@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use convert::command::{atomic, model};
-use iv_parser::{Diagnostic, Encoding, Problem, Severity, Source, SourcePos, Span, Tree};
+use iv_parser::{Diagnostic, Limits, Severity, Source, SourcePos, Tree};
 use scenegraph::RegistryLayout;
 
 use super::references;
@@ -22,18 +22,14 @@ pub struct Text<'a> {
 impl<'a> Text<'a> {
     /// Reads a text; `name` is shown in diagnostics.
     pub fn of(bytes: &'a [u8], name: &Arc<str>) -> Self {
-        let parse = iv_parser::parse(bytes);
+        let parse = iv_parser::parse_any(bytes, &RegistryLayout, &Limits::default());
         let source = Source {
             name,
             file: 0,
             bytes,
         };
-        // What the parser says about bytes of another format means nothing.
-        let (problems, dropped) = match unsupported(&parse.tree) {
-            Some(problem) => (vec![problem], 0),
-            None => (parse.problems, parse.problems_dropped),
-        };
-        let mut diagnostics = source.diagnostics(problems);
+        let dropped = parse.problems_dropped;
+        let mut diagnostics = source.diagnostics(parse.problems);
         if dropped > 0 {
             diagnostics.push(Diagnostic {
                 severity: Severity::Warning,
@@ -82,14 +78,4 @@ impl<'a> Text<'a> {
             iv_parser::print(&self.tree, &RegistryLayout, out)
         })
     }
-}
-
-fn unsupported(tree: &Tree<'_>) -> Option<Problem> {
-    (tree.header.encoding == Encoding::Binary).then(|| Problem {
-        severity: Severity::Error,
-        code: "unsupported-format",
-        message: "binary Inventor files are not read by this version".to_owned(),
-        hint: "write the model as `#Inventor V2.1 ascii`".to_owned(),
-        span: Span::default(),
-    })
 }

@@ -6,14 +6,14 @@ use std::time::{Duration, Instant};
 
 use convert::command::messages::{file_of, image_left_out};
 use convert::command::{atomic, bytes, model};
-use convert::{Container, Loss, Options, Report};
+use convert::{Container, Loss, Options, Recorder, Report};
 use iv_parser::{Diagnostic, Severity, SourcePos};
-use scenegraph::{FileLoader, ResolveOptions, Resolved};
+use scenegraph::{Loader, ResolveOptions, Resolved};
 use serde_json::{Value, json};
 
 use super::args::{Args, Format};
 use super::inputs::Input;
-use super::inventor;
+use super::{from_gltf, inventor};
 
 /// Why an input of a format that is not read failed; its diagnostic says which format it is.
 pub const UNSUPPORTED: &str = "not converted: its format is not read";
@@ -24,24 +24,34 @@ pub struct Settings {
     /// `None` if no format could be settled; no input has an output then.
     format: Option<Format>,
     options: Options,
-    search: Vec<PathBuf>,
+    /// Further folders that may be read.
+    pub search: Vec<PathBuf>,
+    /// The source goes into the output.
+    pub round_trip: bool,
+    /// Images go into an Inventor text.
+    pub embed: bool,
 }
 
 impl Settings {
     /// As the user wants it.
-    pub fn of(args: &Args) -> Self {
+    pub fn of(args: &Args, inputs: usize) -> Self {
         let format = args.format().ok();
+        let options = Options {
+            container: match format {
+                Some(Format::Gltf) => Container::GltfBin,
+                _ => Container::Glb,
+            },
+            extras: !args.no_extras,
+            // Processors that no input takes for itself.
+            threads: (args.jobs() / inputs.max(1)).max(1),
+            ..Options::default()
+        };
         Self {
             format,
-            options: Options {
-                container: match format {
-                    Some(Format::Gltf) => Container::GltfBin,
-                    _ => Container::Glb,
-                },
-                extras: !args.no_extras,
-                ..Options::default()
-            },
+            options: args.choices.apply(options),
             search: args.search.clone(),
+            round_trip: args.round_trip,
+            embed: args.embed,
         }
     }
 }
@@ -109,7 +119,7 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
     };
     outcome.failure = target
         .and_then(|(path, format)| match format {
-            Format::Iv => to_inventor(&mut outcome, path),
+            Format::Iv => to_inventor(&mut outcome, path, settings),
             Format::Glb | Format::Gltf => to_gltf(&mut outcome, path, settings),
         })
         .err();
@@ -117,9 +127,12 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
     outcome
 }
 
-fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
+fn to_inventor(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<(), String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
+    if convert::is_gltf(&bytes) {
+        return from_gltf::to_inventor(outcome, &bytes, path, settings);
+    }
     let name: Arc<str> = outcome.input.display().to_string().into();
     let text = inventor::Text::of(&bytes, &name);
     outcome.diagnostics.clone_from(&text.diagnostics);
@@ -138,11 +151,20 @@ fn to_inventor(outcome: &mut Outcome, path: &Path) -> Result<(), String> {
 
 fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<(), String> {
     let files = model::file_loader(&outcome.input, &settings.search);
-    let scene = resolved(outcome, &files)?.scene;
+    let folder = model::canonical_folder_of(&outcome.input);
+    let recorder = Recorder::new(&files, &folder);
+    let keep = settings.round_trip;
+    let loader: &dyn Loader = if keep { &recorder } else { &files };
+    let (resolved, text) = resolved(outcome, loader, keep)?;
+    let scene = resolved.scene;
     atomic::make_folder_of(path)?;
-    let images = model::Images(&files);
-    let report = convert::write_file(&scene, &settings.options, &images, path)
-        .map_err(|error| words(&error))?;
+    let report = match text {
+        Some(text) => {
+            convert::write_file_with_source(&scene, &settings.options, &recorder, &text, path)
+        }
+        None => convert::write_file(&scene, &settings.options, &model::Images(&files), path),
+    };
+    let report = report.map_err(|error| words(&error))?;
     outcome.bytes_out = report.counts.bytes;
     outcome.counts = counts(&report, scene.instances.len());
     if scene.instances.is_empty() {
@@ -161,19 +183,26 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
 }
 
 /// Reads and resolves the input. Text and graph are gone when this returns, so that they do not
-/// take up memory while the output is made.
-fn resolved(outcome: &mut Outcome, files: &FileLoader) -> Result<Resolved, String> {
+/// take up memory while the output is made; the text is given back if it is to be kept.
+fn resolved(
+    outcome: &mut Outcome,
+    loader: &dyn Loader,
+    keep: bool,
+) -> Result<(Resolved, Option<bytes::Bytes>), String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
-    let mut graph = model::graph(&bytes, &outcome.input, files);
-    drop(bytes);
+    if convert::is_gltf(&bytes) {
+        return Err(from_gltf::IS_GLTF.to_owned());
+    }
+    let mut graph = model::graph(&bytes, &outcome.input, loader);
+    let text = keep.then_some(bytes);
     outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
     if model::is_unsupported(&outcome.diagnostics) {
         return Err(UNSUPPORTED.to_owned());
     }
     let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
     outcome.diagnostics.append(&mut resolved.diagnostics);
-    Ok(resolved)
+    Ok((resolved, text))
 }
 
 fn words(error: &convert::Error) -> String {

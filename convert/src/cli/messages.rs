@@ -80,11 +80,8 @@ pub fn lines(
 
 fn loss_line(named: &NamedLoss) -> String {
     let loss = &named.loss;
-    let mut line = named.file.to_string();
+    let mut line = format!("{}{}", named.file, loss.pos);
     // Writing to a String does not fail.
-    if loss.pos.line > 0 {
-        let _ = write!(line, ":{}:{}", loss.pos.line, loss.pos.column);
-    }
     let _ = write!(line, ": loss[{}]: {}", loss.kind.code(), loss.kind.text());
     if !loss.detail.is_empty() {
         let _ = write!(line, ": {}", loss.detail);

@@ -6,10 +6,13 @@
 //! Exit codes: 0 done, 1 done but not everything came over (with `--strict`), 2 something failed.
 
 mod args;
+mod choices;
+mod from_gltf;
 mod info;
 mod inputs;
 mod inventor;
 mod job;
+mod length;
 mod messages;
 mod plan;
 mod pool;
@@ -58,7 +61,7 @@ pub fn run() -> ExitCode {
 /// Converts all inputs; returns the exit code.
 fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>]) -> u8 {
     let start = Instant::now();
-    let settings = job::Settings::of(args);
+    let settings = job::Settings::of(args, inputs.len());
     let mut screen = Screen::new(inputs.len(), args.quiet);
     let mut totals = Totals::default();
     let mut report = args.report.as_ref().map(|_| report::Report::new(args));

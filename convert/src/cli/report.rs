@@ -71,7 +71,7 @@ impl Report {
 
 fn loss(named: &NamedLoss) -> Value {
     let loss = &named.loss;
-    let (line, column) = place(loss.pos);
+    let (line, column, byte) = place(loss.pos);
     json!({
         "code": loss.kind.code(),
         "text": loss.kind.text(),
@@ -80,5 +80,6 @@ fn loss(named: &NamedLoss) -> Value {
         "file": *named.file,
         "line": line,
         "column": column,
+        "byte": byte,
     })
 }

@@ -9,13 +9,14 @@ pub fn text(document: &Value) -> String {
     format!("{document:#}\n")
 }
 
-/// Diagnostics: `line` and `column` are null when the place is not known.
+/// Diagnostics: `line` and `column` are null when the place is not known, and in a binary file,
+/// which has `byte` instead.
 pub fn diagnostics(list: &[Diagnostic]) -> Value {
     list.iter().map(diagnostic).collect()
 }
 
 fn diagnostic(diagnostic: &Diagnostic) -> Value {
-    let (line, column) = place(diagnostic.pos);
+    let (line, column, byte) = place(diagnostic.pos);
     json!({
         "severity": diagnostic.severity.to_string(),
         "code": diagnostic.code,
@@ -24,11 +25,12 @@ fn diagnostic(diagnostic: &Diagnostic) -> Value {
         "file": *diagnostic.file,
         "line": line,
         "column": column,
+        "byte": byte,
     })
 }
 
-/// Line and column, if the place is known.
-pub fn place(pos: SourcePos) -> (Option<u32>, Option<u32>) {
-    let is_known = pos.line > 0;
-    (is_known.then_some(pos.line), is_known.then_some(pos.column))
+/// Line and column in a text, the offset in a binary file, if the place is known.
+pub fn place(pos: SourcePos) -> (Option<u32>, Option<u32>, Option<u32>) {
+    let (line, column) = pos.line_and_column().unzip();
+    (line, column, pos.byte())
 }

@@ -12,7 +12,7 @@ pub fn file_loader(path: &Path, search: &[PathBuf]) -> FileLoader {
 }
 
 /// The graph of a model with all it includes.
-pub fn graph(bytes: &[u8], path: &Path, files: &FileLoader) -> Graph {
+pub fn graph(bytes: &[u8], path: &Path, files: &dyn Loader) -> Graph {
     let name = path.display().to_string();
     scenegraph::load(bytes, &name, &canonical_folder_of(path), files)
 }

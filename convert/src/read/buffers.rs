@@ -10,12 +10,15 @@ use rustc_hash::FxHashMap;
 use scenegraph::Loader;
 
 use super::budget::Budget;
+use super::compressed::{self, Compressed};
 use super::document::Document;
 use super::error::ReadError;
 
 /// All buffers, each read once. One that is not to be had is an error where it is used.
 pub(crate) struct Buffers<'b> {
     contents: Vec<Content<'b>>,
+    /// By view: its bytes, where they are compressed in the file; `None` within if they are broken.
+    decoded: FxHashMap<usize, Option<Vec<u8>>>,
 }
 
 enum Content<'b> {
@@ -51,7 +54,41 @@ impl<'b> Buffers<'b> {
                 },
             });
         }
-        Ok(Self { contents })
+        let mut buffers = Self {
+            contents,
+            decoded: FxHashMap::default(),
+        };
+        buffers.decode(document, budget)?;
+        Ok(buffers)
+    }
+
+    fn decode(&mut self, document: &Document, budget: &mut Budget) -> Result<(), ReadError> {
+        for (i, view) in document.root.buffer_views.iter().enumerate() {
+            let extensions = view.extensions.as_ref();
+            let mut named = compressed::NAMES.into_iter();
+            let Some(extension) = named.find_map(|n| extensions?.others.get(n)) else {
+                continue;
+            };
+            let decoded = match Compressed::of(extension) {
+                Some(compressed) => {
+                    budget.take(compressed.decoded_len())?;
+                    self.compressed_bytes(&compressed)
+                        .and_then(|bytes| compressed.decode(bytes))
+                }
+                None => None,
+            };
+            self.decoded.insert(i, decoded);
+        }
+        Ok(())
+    }
+
+    fn compressed_bytes(&self, compressed: &Compressed) -> Option<&[u8]> {
+        let bytes = match self.contents.get(compressed.buffer)? {
+            Content::Chunk(bytes) => bytes,
+            Content::Read(bytes) => bytes.as_slice(),
+            Content::Missing(_) => return None,
+        };
+        slice(bytes, compressed.byte_offset, compressed.byte_length)
     }
 
     /// The bytes of a buffer view, and the stride it states.
@@ -65,6 +102,12 @@ impl<'b> Buffers<'b> {
             .root
             .get(index)
             .ok_or(broken("it does not exist"))?;
+        let stride = view.byte_stride.map(|stride| stride.0);
+        match self.decoded.get(&index.value()) {
+            Some(Some(bytes)) => return Ok((bytes, stride)),
+            Some(None) => return Err(broken("its compressed bytes are broken")),
+            None => {}
+        }
         let buffer = view.buffer.value();
         let bytes = match self.contents.get(buffer) {
             None => return Err(broken("its buffer does not exist")),
@@ -80,7 +123,7 @@ impl<'b> Buffers<'b> {
         let start = view.byte_offset.map_or(0, |offset| offset.0);
         let range = slice(bytes, start, view.byte_length.0);
         let bytes = range.ok_or(broken("it reaches beyond its buffer"))?;
-        Ok((bytes, view.byte_stride.map(|stride| stride.0)))
+        Ok((bytes, stride))
     }
 }
 
@@ -112,7 +155,7 @@ pub(crate) fn data_uri(uri: &str) -> Option<Option<Vec<u8>>> {
 }
 
 /// RFC 4648, the standard alphabet; padding may be missing.
-fn base64(text: &[u8]) -> Option<Vec<u8>> {
+pub(crate) fn base64(text: &[u8]) -> Option<Vec<u8>> {
     let padding = text.iter().rev().take_while(|&&b| b == b'=').count();
     let digits = &text[..text.len() - padding];
     let mut bytes = Vec::with_capacity(digits.len() / 4 * 3 + 2);

@@ -29,8 +29,10 @@ const SUPPORTED: &[&str] = &[
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
     "EXT_texture_webp",
 ];
 
@@ -107,6 +109,24 @@ impl<'b> Document<'b> {
             return Err(ReadError::Extension(name.clone()));
         }
         Ok(Self { root, exact, bin })
+    }
+
+    /// Forgets all that is not glTF's.
+    pub(crate) fn strip_extras(&mut self) {
+        let root = &mut self.root;
+        root.asset.extras = None;
+        root.scenes.iter_mut().for_each(|scene| scene.extras = None);
+        root.nodes.iter_mut().for_each(|node| node.extras = None);
+        root.materials.iter_mut().for_each(|m| m.extras = None);
+        root.textures.iter_mut().for_each(|t| t.extras = None);
+        root.cameras.iter_mut().for_each(|c| c.extras = None);
+        let lights = root.extensions.as_mut();
+        if let Some(lights) = lights.and_then(|e| e.khr_lights_punctual.as_mut()) {
+            lights
+                .lights
+                .iter_mut()
+                .for_each(|light| light.extras = None);
+        }
     }
 }
 

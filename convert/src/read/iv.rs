@@ -22,6 +22,11 @@ impl Iv {
         }
     }
 
+    /// A value of any kind.
+    pub(crate) fn value(&self, key: &str) -> Option<&Value> {
+        self.0.get(key)
+    }
+
     pub(crate) fn number(&self, key: &str, default: f64) -> f64 {
         self.0.get(key).and_then(Value::as_f64).unwrap_or(default)
     }

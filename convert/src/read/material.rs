@@ -69,6 +69,16 @@ impl<'a> Materials<'a> {
         Ok(self.look(index)?.wants)
     }
 
+    /// A material without its texture, and the number of that.
+    pub(crate) fn seen(
+        &mut self,
+        index: Index<JsonMaterial>,
+    ) -> Result<(Material, Option<usize>), ReadError> {
+        let look = self.look(Some(index))?;
+        let texture = look.texture.map(|(number, _)| number);
+        Ok((look.material.clone(), texture))
+    }
+
     /// The material of the scene.
     pub(crate) fn material(
         &mut self,

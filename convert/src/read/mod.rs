@@ -11,6 +11,7 @@ mod accessor;
 mod budget;
 mod buffers;
 mod camera;
+mod compressed;
 mod document;
 mod error;
 mod frame;
@@ -20,6 +21,7 @@ mod light;
 mod material;
 mod mesh;
 mod normals;
+mod objects;
 mod texture;
 mod topology;
 
@@ -39,7 +41,9 @@ use material::Materials;
 use texture::Textures;
 
 pub use budget::ReadLimits;
+pub(crate) use buffers::base64;
 pub use error::ReadError;
+pub(crate) use objects::{NodeObject, Objects, PrimitiveObject, carried_source, images_of};
 
 /// A glTF file as a scene.
 #[derive(Clone, Debug, Default)]

@@ -71,12 +71,7 @@ impl<'a> Textures<'a> {
             self.warnings.push(warning);
             return Ok(None);
         };
-        let sampler = source
-            .sampler
-            .and_then(|index| self.document.root.get(index));
-        let [wrap_s, wrap_t] = sampler.map_or([Wrap::Repeat; 2], |sampler| {
-            [sampler.wrap_s, sampler.wrap_t].map(wrap)
-        });
+        let [wrap_s, wrap_t] = sampling(self.document, source);
         let id = TextureId(self.textures.len() as u32);
         self.textures.push(Texture {
             name: source.name.as_deref().map(Into::into),
@@ -133,13 +128,21 @@ impl<'a> Textures<'a> {
 }
 
 /// The image of a texture; a number that none has if there is none.
-fn image_number(source: &JsonTexture) -> usize {
+pub(crate) fn image_number(source: &JsonTexture) -> usize {
     let extensions = source.extensions.as_ref();
     let webp = extensions.and_then(|e| e.others.get("EXT_texture_webp")?.get("source")?.as_u64());
     match webp.map(usize::try_from) {
         Some(Ok(webp)) => webp,
         _ => source.source.value(),
     }
+}
+
+/// How a texture goes on beyond its edges.
+pub(crate) fn sampling(document: &Document, source: &JsonTexture) -> [Wrap; 2] {
+    let sampler = source.sampler.and_then(|index| document.root.get(index));
+    sampler.map_or([Wrap::Repeat; 2], |sampler| {
+        [sampler.wrap_s, sampler.wrap_t].map(wrap)
+    })
 }
 
 /// What mirrors repeats, which is as near as Inventor comes.

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod containers;
+mod decode;
 mod hierarchy;
 mod hostile;
 mod lights_cameras;
@@ -17,3 +18,4 @@ mod reading;
 mod scenes;
 mod size;
 mod textures;
+mod vertices;

@@ -115,6 +115,13 @@ pub fn decompose_within(world_from_local: &DAffine3, max_cosine: f64) -> Decompo
     }
 }
 
+/// The largest factor by which a finite matrix lengthens a vector: its largest singular value.
+#[must_use]
+pub fn largest_stretch(linear: &DMat3) -> f64 {
+    let columns = svd::one_sided_jacobi(linear).u_times_s;
+    columns.iter().fold(0.0, |most, c| most.max(c.length))
+}
+
 fn columns_of(m: &DMat3) -> [Column; 3] {
     [m.x_axis, m.y_axis, m.z_axis].map(Column::new)
 }

@@ -179,6 +179,24 @@ fn nearly_diagonal_shear_keeps_its_axes() {
 }
 
 #[test]
+fn the_largest_stretch_is_that_of_the_longest_axis() {
+    let mut rng = Rng(29);
+    for _ in 0..100 {
+        let (before, after) = (random_matrix(&mut rng, 3), random_matrix(&mut rng, 3));
+        let turn = |m: &DMat3| DMat3::from_quat(DQuat::from_mat3(m).normalize());
+        let scale = rng.vec3() * 5.0;
+        let m = turn(&before) * DMat3::from_diagonal(scale) * turn(&after);
+        let found = largest_stretch(&m);
+        let longest = scale.abs().max_element();
+        assert!(
+            (found - longest).abs() <= 1e-13 * longest,
+            "{found} {longest}"
+        );
+    }
+    assert_eq!(largest_stretch(&DMat3::ZERO), 0.0);
+}
+
+#[test]
 fn mirroring_is_exact() {
     // Rows of integers whose determinant is exactly what the third column decides.
     let big = 2.0_f64.powi(52) + 1.0;

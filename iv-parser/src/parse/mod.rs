@@ -14,8 +14,9 @@ mod vrml;
 
 use std::collections::HashSet;
 
+use crate::binary::{Schema, parse_binary};
 use crate::diagnostic::Severity;
-use crate::header::{Dialect, read_header};
+use crate::header::{Dialect, Encoding, Header, read_header};
 use crate::lex;
 use crate::limits::Limits;
 use crate::source::{Problem, Span};
@@ -37,10 +38,39 @@ pub fn parse(bytes: &[u8]) -> Parse<'_> {
     parse_with(bytes, &Limits::default())
 }
 
-/// Parses any bytes.
+/// Parses text, or a binary file with what the schema knows of its classes.
+pub fn parse_any<'a>(bytes: &'a [u8], schema: &dyn Schema, limits: &Limits) -> Parse<'a> {
+    let mut problems = Vec::new();
+    let (header, start) = read_header(bytes, &mut problems);
+    if header.encoding == Encoding::Binary {
+        return parse_binary(bytes, start, header, schema, limits, problems);
+    }
+    parse_text(bytes, start, header, limits, problems)
+}
+
+/// Parses any text. Of a binary file it reads nothing: see [`parse_any`].
 pub fn parse_with<'a>(bytes: &'a [u8], limits: &Limits) -> Parse<'a> {
     let mut problems = Vec::new();
     let (header, start) = read_header(bytes, &mut problems);
+    if header.encoding == Encoding::Binary {
+        problems.push(Problem {
+            severity: Severity::Error,
+            code: "unsupported-format",
+            message: "this is a binary file, not a text".to_owned(),
+            hint: String::new(),
+            span: Span::default(),
+        });
+    }
+    parse_text(bytes, start, header, limits, problems)
+}
+
+fn parse_text<'a>(
+    bytes: &'a [u8],
+    start: usize,
+    header: Header,
+    limits: &Limits,
+    problems: Vec<Problem>,
+) -> Parse<'a> {
     let mut parser = Parser {
         bytes: &bytes[..bytes.len().min(limits.bytes)],
         vrml2: header.dialect == Dialect::Vrml2,
@@ -398,4 +428,4 @@ impl<'a> Parser<'a> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

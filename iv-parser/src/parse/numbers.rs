@@ -11,10 +11,6 @@ use crate::number::{Number, Remark, number};
 use crate::source::Span;
 use crate::tree::{FieldId, Numbers, Value};
 
-/// Runs at least this long can be passed on without copying: more than a value of a field that
-/// takes one value has, but for matrices.
-const MANY: usize = 5;
-
 impl Parser<'_> {
     /// Whether a number, or a word for one that is not a number, is here.
     pub(super) fn number_here(&self) -> bool {
@@ -181,19 +177,10 @@ impl Parser<'_> {
     }
 
     fn store(&mut self, mut run: Run) -> Numbers {
-        let numbers = match (run.is_float, run.len()) {
-            (false, ..MANY) => {
-                let start = self.tree.ints.len();
-                self.tree.ints.extend_from_slice(&run.ints);
-                Numbers::Ints(start as u32, self.tree.ints.len() as u32)
-            }
-            (true, ..MANY) => {
-                let start = self.tree.floats.len();
-                self.tree.floats.extend_from_slice(&run.floats);
-                Numbers::Floats(start as u32, self.tree.floats.len() as u32)
-            }
-            (false, _) => Numbers::ManyInts(self.tree.int_lists.add(&mut run.ints)),
-            (true, _) => Numbers::ManyFloats(self.tree.float_lists.add(&mut run.floats)),
+        let numbers = if run.is_float {
+            self.tree.add_floats(&mut run.floats)
+        } else {
+            self.tree.add_ints(&mut run.ints)
         };
         run.clear();
         self.run = run;
@@ -239,14 +226,6 @@ impl Run {
         self.floats.extend(self.ints.iter().map(|&i| f64::from(i)));
         self.floats.push(next);
         self.is_float = true;
-    }
-
-    fn len(&self) -> usize {
-        if self.is_float {
-            self.floats.len()
-        } else {
-            self.ints.len()
-        }
     }
 
     fn clear(&mut self) {

@@ -7,7 +7,7 @@ use crate::{Atom, Child, Item, Numbers, Tree, Value, parse, text_of};
 mod vrml;
 
 /// The tree in one line: `Class{field=value Child{}}`.
-fn brief(tree: &Tree<'_>) -> String {
+pub(crate) fn brief(tree: &Tree<'_>) -> String {
     let mut out = String::new();
     for &root in tree.children_of_root() {
         child(tree, root, &mut out);

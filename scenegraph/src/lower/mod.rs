@@ -10,6 +10,8 @@ mod include;
 mod names;
 mod node;
 mod proto;
+mod schema;
+mod swept;
 mod upgrade;
 mod value;
 
@@ -17,8 +19,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use iv_parser::{
-    Child, Diagnostic, Dialect, Encoding, Form, Layout, LineCounter, Problem, Severity, Source,
-    SourcePos, Span, Tree,
+    Child, Diagnostic, Dialect, Form, LineCounter, Problem, Severity, Source, SourcePos, Span, Tree,
 };
 
 use rustc_hash::FxHashMap;
@@ -32,6 +33,7 @@ use include::Includes;
 use names::{Names, Reference, Scope};
 use proto::Protos;
 
+pub use schema::RegistryLayout;
 pub(crate) use value::read_default;
 
 /// Reads a model and all it includes, with the default limits of the parser.
@@ -70,24 +72,6 @@ pub fn load_with(
     }
 }
 
-/// Lays out printed numbers by the registry's field types.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RegistryLayout;
-
-impl Layout for RegistryLayout {
-    fn tuple_size(&self, class: &[u8], field: &[u8]) -> usize {
-        let size = |class: Option<Class>| {
-            let (_, spec) = class?.spec().field(field)?;
-            Some(spec.field_type.tuple_size())
-        };
-        // Classes of both languages with the same name agree in the fields they share.
-        let inventor = size(Class::from_name(class));
-        inventor
-            .or_else(|| size(Class::from_vrml_name(class)))
-            .unwrap_or(0)
-    }
-}
-
 struct Builder<'l> {
     nodes: Vec<Node>,
     files: Vec<SourceFile>,
@@ -103,7 +87,7 @@ impl Builder<'_> {
     /// `around` around all that is there.
     fn file(&mut self, bytes: &[u8], name: Arc<str>, folder: &Path, around: Class) -> NodeId {
         let index = self.files.len() as u32;
-        let parsed = iv_parser::parse_with(bytes, &self.limits);
+        let parsed = iv_parser::parse_any(bytes, &RegistryLayout, &self.limits);
         let header = parsed.tree.header;
         self.files.push(SourceFile {
             name: Arc::clone(&name),
@@ -114,10 +98,9 @@ impl Builder<'_> {
         let mut dropped = parsed.problems_dropped;
         let is_foreign = problems.iter().any(|p| p.code == "unsupported-format");
         let without_header = problems.iter().any(|p| p.code == "no-header");
-        let readable = header.encoding == Encoding::Ascii;
         // Without a header and without a single known class it is some other text.
         let nothing_known = without_header && !has_known_class(&parsed.tree);
-        let readable = readable && !is_foreign && !nothing_known;
+        let readable = !is_foreign && !nothing_known;
         let root = if readable {
             let mut file = File {
                 index,
@@ -143,7 +126,7 @@ impl Builder<'_> {
             dropped = 0;
             if !is_foreign {
                 problems.clear();
-                problems.push(unreadable(nothing_known));
+                problems.push(unreadable());
             }
             self.add(Node {
                 kind: Kind::Known(Class::Separator),
@@ -194,23 +177,12 @@ fn has_known_class(tree: &Tree<'_>) -> bool {
     nodes.any(|node| Class::from_name(node.class).is_some())
 }
 
-fn unreadable(nothing_known: bool) -> Problem {
-    let (message, hint) = if nothing_known {
-        (
-            "this is not an Inventor file",
-            "it has neither a header nor a node of a known class",
-        )
-    } else {
-        (
-            "binary Inventor files are not read by this version",
-            "write the model as ASCII, for example with SGI's `ivcat`",
-        )
-    };
+fn unreadable() -> Problem {
     Problem {
         severity: Severity::Error,
         code: "unsupported-format",
-        message: message.to_owned(),
-        hint: hint.to_owned(),
+        message: "this is not an Inventor file".to_owned(),
+        hint: "it has neither a header nor a node of a known class".to_owned(),
         span: Span::default(),
     }
 }

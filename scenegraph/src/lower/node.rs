@@ -7,7 +7,7 @@ use iv_parser::{
 use super::names::display_name;
 use super::upgrade::OldValue;
 use super::value::Reader;
-use super::{File, upgrade};
+use super::{File, swept, upgrade};
 use crate::graph::{FieldEntry, FieldValue, Kind, Node, NodeId};
 use crate::registry::{Class, ClassSpec, FieldSpec};
 
@@ -21,9 +21,13 @@ impl<'a> File<'_, '_, 'a, '_> {
         let count = self.tree.node_count();
         self.builder.nodes.reserve(count);
         let mut splits = Vec::new();
+        let mut swept = Vec::new();
         for i in 0..count as u32 {
             let mut old = Vec::new();
             let node = self.node(TreeId(i), &mut old);
+            if node.class() == Some(Class::GeneralizedCylinder) {
+                swept.push(TreeId(i));
+            }
             self.builder.nodes.push(node);
             self.drop_surplus_problems();
             if !old.is_empty() {
@@ -32,6 +36,9 @@ impl<'a> File<'_, '_, 'a, '_> {
         }
         for (id, old) in splits {
             upgrade::split(self, id, &old);
+        }
+        for id in swept {
+            swept::expand(self, id);
         }
     }
 

@@ -37,7 +37,7 @@ impl OldValue {
 }
 
 /// Sets a field of the node by its name.
-fn set(node: &mut Node, field: &str, value: FieldValue) {
+pub(super) fn set(node: &mut Node, field: &str, value: FieldValue) {
     let Some((index, _)) = node.class().and_then(|c| c.spec().field(field.as_bytes())) else {
         return;
     };
@@ -49,7 +49,7 @@ fn set(node: &mut Node, field: &str, value: FieldValue) {
 }
 
 /// Sets an enum field by its word.
-fn set_word(node: &mut Node, field: &str, word: &str) {
+pub(super) fn set_word(node: &mut Node, field: &str, word: &str) {
     let spec = node.class().and_then(|c| c.spec().field(field.as_bytes()));
     let value = spec.and_then(|(_, spec)| spec.word(word.as_bytes()));
     if let Some(value) = value {

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use iv_parser::{Atom, Child, Problem, Severity, Span, Tree, Value, decode_string, parse, text_of};
+use iv_parser::{Atom, Child, Problem, Severity, Span, Tree, Value, parse, text_of};
 
 use crate::graph::{FieldValue, NodeId};
 use crate::registry::{FieldSpec, FieldType};
@@ -208,9 +208,7 @@ impl<'a> Reader<'_, 'a> {
                 .atoms(*atoms)
                 .iter()
                 .filter_map(|atom| match atom {
-                    Atom::String(raw, _) => {
-                        Some(text(&decode_string(raw, self.tree.header.dialect)))
-                    }
+                    Atom::String(raw, _) => Some(text(&self.tree.string(raw))),
                     Atom::Word(word, _) => Some(text(word)),
                     Atom::Number(_, span) => Some(text(&self.tree.source[span.range()])),
                     Atom::Child(_) => None,

@@ -77,6 +77,30 @@ InteractionKit: BaseKit, Planned, [KIT, SEPARATOR],
     topSeparator: SFNode = "NULL";
     geomSeparator: SFNode = "NULL";
 }
+GeneralizedCylinder: SeparatorKit, Full, [KIT, SEPARATOR, SEPARATOR_KIT],
+    "A cross section swept along a spine; becomes a Separator with a face set. SGI's modeller noodle." {
+    renderShapeType: SFEnum = "FACE_SET" [
+        FACE_SET, TRIANGLE_STRIP_SET, QUAD_MESH, BEZIER_SURFACE, CUBIC_SPLINE_SURFACE,
+        CUBIC_TO_EDGE_SURFACE,
+    ];
+    normsFlipped: SFBool = "FALSE";
+    profileClosed: SFBool = "FALSE";
+    crossSectionClosed: SFBool = "FALSE";
+    spineClosed: SFBool = "FALSE";
+    twistClosed: SFBool = "FALSE";
+    minNumRows: SFInt32 = "1";
+    minNumCols: SFInt32 = "1";
+    withSides: SFBool = "TRUE";
+    withTopCap: SFBool = "TRUE";
+    withBottomCap: SFBool = "TRUE";
+    withTextureCoords: SFBool = "FALSE";
+    inputSwitch: SFNode = "NULL";
+    profileCoords: SFNode = "NULL";
+    crossSectionCoords: SFNode = "NULL";
+    spineCoords: SFNode = "NULL";
+    twistCoords: SFNode = "NULL";
+    childList: SFNode = "NULL";
+}
 
     } } };
 }

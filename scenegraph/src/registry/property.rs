@@ -86,17 +86,17 @@ VertexProperty: Node, Partial, [],
     materialBinding: SFEnum = "OVERALL" in MATERIAL_BINDING;
     textureUnit: MFInt32 = "0";
 }
-ProfileCoordinate2: Node, Planned, [],
+ProfileCoordinate2: Node, Full, [],
     "Points of the following profiles." {
     point: MFVec2f = "0 0";
 }
-ProfileCoordinate3: Node, Planned, [],
+ProfileCoordinate3: Node, Full, [],
     "Points of the following profiles with a weight." {
     point: MFVec3f = "0 0 1";
 }
-LinearProfile: Profile, Planned, [PROFILE],
+LinearProfile: Profile, Full, [PROFILE],
     "Polygon that trims a NURBS surface or shapes Text3." {}
-NurbsProfile: Profile, Planned, [PROFILE],
+NurbsProfile: Profile, Full, [PROFILE],
     "Curve that trims a NURBS surface or shapes Text3." {
     knotVector: MFFloat = "0";
 }

@@ -83,18 +83,18 @@ Image: Shape, Planned, [],
     image: SFImage = "0 0 0";
     filename: SFString = "\"\"";
 }
-NurbsCurve: Shape, Planned, [],
+NurbsCurve: Shape, Full, [],
     "Rational B-spline curve." {
     numControlPoints: SFInt32 = "0";
     knotVector: MFFloat = "0";
 }
-IndexedNurbsCurve: Shape, Planned, [],
+IndexedNurbsCurve: Shape, Full, [],
     "Rational B-spline curve, points by index." {
     numControlPoints: SFInt32 = "0";
     coordIndex: MFInt32 = "0";
     knotVector: MFFloat = "0";
 }
-NurbsSurface: Shape, Planned, [],
+NurbsSurface: Shape, Full, [],
     "Rational B-spline surface, trimmed by the profiles before it." {
     numUControlPoints: SFInt32 = "0";
     numVControlPoints: SFInt32 = "0";
@@ -105,7 +105,7 @@ NurbsSurface: Shape, Planned, [],
     sKnotVector: MFFloat = "0";
     tKnotVector: MFFloat = "0";
 }
-IndexedNurbsSurface: Shape, Planned, [],
+IndexedNurbsSurface: Shape, Full, [],
     "Rational B-spline surface, points by index." {
     numUControlPoints: SFInt32 = "0";
     numVControlPoints: SFInt32 = "0";

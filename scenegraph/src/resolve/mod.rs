@@ -7,6 +7,7 @@
 mod builder;
 mod for_all;
 mod lights;
+mod profiles;
 mod properties;
 mod shapes;
 mod state;
@@ -23,7 +24,7 @@ use crate::remarks::Remarks;
 use crate::scene::Scene;
 use crate::shape::Measure;
 
-pub(crate) use state::{Binding, ColorSource, Ordering, State, Style, TexCoords};
+pub(crate) use state::{Binding, ColorSource, Ordering, ProfileList, State, Style, TexCoords};
 
 /// How much of the geometry is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +68,10 @@ pub struct ResolveOptions {
     /// compare with it: `DrawStyle` plays no part, polygons are fanned even if they are concave,
     /// and what stands in nodes of unknown classes is not drawn.
     pub like_coin: bool,
+    /// The largest distance, in units of the scene, that segments and triangles may have to the
+    /// NURBS curve or surface they stand for, wherever it is placed. Without it each shape's own
+    /// size and its `Complexity` decide.
+    pub chord: Option<f64>,
     /// Limits.
     pub limits: ResolveLimits,
 }
@@ -76,6 +81,7 @@ impl Default for ResolveOptions {
         Self {
             geometry: Geometry::Build,
             like_coin: false,
+            chord: None,
             limits: ResolveLimits::default(),
         }
     }

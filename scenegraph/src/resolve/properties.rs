@@ -8,7 +8,7 @@ use crate::registry::Class;
 use crate::scene::{Environment, Fog, FogType, LightModel};
 use crate::shape::has_texcoords;
 
-use super::state::{Binding, ColorSource, Ordering, State, Style, TexCoords};
+use super::state::{Binding, ColorSource, Ordering, ProfileList, State, Style, TexCoords};
 use super::walk::Walk;
 
 impl Walk<'_> {
@@ -22,6 +22,17 @@ impl Walk<'_> {
                 if !node.is_ignored("point") {
                     state.coordinates = Some(id);
                 }
+            }
+            Class::ProfileCoordinate2 | Class::ProfileCoordinate3 => {
+                if !node.is_ignored("point") {
+                    state.profile_coordinates = Some(id);
+                }
+            }
+            Class::LinearProfile | Class::NurbsProfile => {
+                if node.word("linkage") == "START_FIRST" {
+                    state.profiles = ProfileList::default();
+                }
+                state.profiles = self.profiles.add(state.profiles, id);
             }
             Class::Normal => {
                 if !node.is_ignored("vector") {

@@ -2,17 +2,22 @@
 
 use std::sync::Arc;
 
+use geometry::transform::largest_stretch;
+
 use crate::graph::{FieldValue, NodeId};
 use crate::registry::Class;
 use crate::scene::{
     Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
     TextureSource, Wrap,
 };
-use crate::shape::{Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed};
+use crate::shape::{Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed, is_nurbs, is_trimmed};
 
 use super::Geometry;
 use super::state::{Ordering, State, Style};
 use super::walk::Walk;
+
+/// Digits of a chord behind its first: it becomes smaller by at most 1/16.
+const CHORD_BITS: u32 = 4;
 
 impl Walk<'_> {
     /// Adds a shape; false if it is none that is drawn here.
@@ -49,6 +54,9 @@ impl Walk<'_> {
         }
         let graph = self.graph;
         let state = self.state.clone();
+        let Some(profiles) = self.profiles_of(class, id) else {
+            return;
+        };
         let job = Job {
             graph,
             class,
@@ -59,6 +67,8 @@ impl Walk<'_> {
             shared: self.is_shared(id) || self.is_shared(placed),
             made,
             fans: self.options.like_coin,
+            chord: self.local_chord(class),
+            profiles,
         };
         let attributes = Attributes::of(&job);
         let builder = &mut self.builder;
@@ -97,6 +107,32 @@ impl Walk<'_> {
                 environment: state.environment_id,
             });
         }
+    }
+
+    /// The profiles that trim a shape; `None` if there are too many.
+    fn profiles_of(&mut self, class: Class, id: NodeId) -> Option<Vec<NodeId>> {
+        if !is_trimmed(class) {
+            return Some(Vec::new());
+        }
+        let nodes = self.profiles.nodes(self.state.profiles);
+        if nodes.is_none() {
+            self.remarks.warn(
+                "bad-nurbs",
+                &format!("{class:?} is trimmed by too many profiles"),
+                "it was left out",
+                self.graph.node(id).pos,
+            );
+        }
+        nodes
+    }
+
+    /// The chord asked for in the shape's own frame, for shapes that follow it. A little smaller
+    /// than it may be, so that places that differ by rounding share a mesh.
+    fn local_chord(&self, class: Class) -> Option<f64> {
+        let chord = self.options.chord.filter(|_| is_nurbs(class))?;
+        let local = chord / largest_stretch(&self.world().matrix3);
+        let kept_bits = !0 << (52 - CHORD_BITS);
+        Some(f64::from_bits(local.to_bits() & kept_bits))
     }
 
     fn material(

@@ -130,6 +130,10 @@ pub struct DrawStyle {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct LightList(pub u32);
 
+/// A list of profile nodes, held by the walk: 0 is the empty one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ProfileList(pub u32);
+
 /// All that a node can leave to those after it.
 #[derive(Clone, Debug)]
 pub struct State {
@@ -142,6 +146,9 @@ pub struct State {
     /// Which copy or child the nearest group around chose, for `Switch` to inherit.
     pub choice: i32,
     pub coordinates: Option<NodeId>,
+    /// `ProfileCoordinate2` or `ProfileCoordinate3`.
+    pub profile_coordinates: Option<NodeId>,
+    pub profiles: ProfileList,
     pub normals: Option<NodeId>,
     pub texcoords: TexCoords,
     pub normal_binding: Binding,
@@ -171,6 +178,8 @@ impl State {
             units_m: 1.0,
             choice: -1,
             coordinates: None,
+            profile_coordinates: None,
+            profiles: ProfileList::default(),
             normals: None,
             texcoords: TexCoords::Default,
             normal_binding: Binding::PerVertexIndexed,

@@ -14,6 +14,7 @@ use crate::scene::{self, Placement, Scene};
 use crate::shape::{MadeFaces, Measure, ShapeMaker};
 
 use super::builder::Builder;
+use super::profiles::Profiles;
 use super::state::State;
 use super::{ResolveOptions, not_supported, transforms};
 
@@ -71,6 +72,7 @@ pub(super) struct Walk<'g> {
     pub made: FxHashMap<NodeId, Option<Rc<MadeFaces>>>,
     /// Whether groups have to look for lights of VRML 2.
     pub has_vrml_lights: bool,
+    pub profiles: Profiles,
     /// For each node whether it is the child of several.
     several_parents: Vec<bool>,
     stack: Vec<Open>,
@@ -101,6 +103,7 @@ impl<'g> Walk<'g> {
                 .nodes()
                 .iter()
                 .any(|n| n.class() == Some(Class::VRMLDirectionalLight)),
+            profiles: Profiles::default(),
             several_parents: several_parents(graph),
             stack: Vec::new(),
             frames: Vec::new(),
@@ -429,7 +432,7 @@ impl<'g> Walk<'g> {
     }
 
     /// The current transform in the world.
-    fn world(&self) -> DAffine3 {
+    pub(super) fn world(&self) -> DAffine3 {
         let frame = self.state.base.checked_sub(1).map(|i| &self.frames[i]);
         frame.map_or(self.state.relative, |f| {
             f.world_from_local * self.state.relative

@@ -287,7 +287,7 @@ impl Assembler {
 }
 
 /// The local origin of points, and the box around them; `positions` gets them relative to it.
-fn fill_positions(
+pub(super) fn fill_positions(
     points: impl ExactSizeIterator<Item = DVec3> + Clone,
     positions: &mut Vec<[f32; 3]>,
 ) -> (DVec3, Aabb) {
@@ -356,7 +356,7 @@ fn enough(
 }
 
 /// Drops triangles with two corners in the same place.
-fn drop_collapsed(mesh: &mut Mesh) {
+pub(super) fn drop_collapsed(mesh: &mut Mesh) {
     let collapsed = |t: &[u32; 3], positions: &[[f32; 3]]| {
         let [a, b, c] = t.map(|v| positions[v as usize]);
         t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || a == b || b == c || c == a
@@ -394,7 +394,7 @@ fn drop_unused(mesh: &mut Mesh) {
 
 /// Makes front faces counter-clockwise: all are turned if the source says clockwise; where it
 /// says nothing and gives normals, a triangle is turned if it faces against them.
-fn turn(mesh: &mut Mesh, clockwise: bool) {
+pub(super) fn turn(mesh: &mut Mesh, clockwise: bool) {
     let positions = &mesh.positions;
     let normals = &mesh.normals;
     let faces_away = |t: &[u32; 3]| {

@@ -58,6 +58,11 @@ pub struct TexCoordList<'g> {
 }
 
 impl TexCoordList<'_> {
+    /// Number of entries.
+    pub fn len(&self) -> usize {
+        self.numbers.len() / self.size
+    }
+
     /// `s` and `t` of an entry; zero beyond the end.
     pub fn get(&self, index: usize) -> DVec2 {
         match self.numbers.get(index * self.size..(index + 1) * self.size) {

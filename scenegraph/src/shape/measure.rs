@@ -1,5 +1,5 @@
 //! The size of a shape without making it: counts and bounds from the index lists alone. Only what a
-//! `DrawStyle` shows as edges or corners is made, because each is drawn once.
+//! `DrawStyle` shows as edges or corners is made, because each is drawn once, and NURBS are.
 
 use geometry::bounds::Aabb;
 
@@ -9,7 +9,7 @@ use crate::resolve::Style;
 use crate::scene::Topology;
 
 use super::attributes::Attributes;
-use super::{Job, faces, outline, point, primitives};
+use super::{Job, faces, is_nurbs, nurbs, outline, point, primitives};
 
 /// How much a shape draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +36,9 @@ pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
             | Class::QuadMesh => return styled_faces(job, attributes),
             _ => {}
         }
+    }
+    if is_nurbs(job.class) {
+        return made_nurbs(job, attributes);
     }
     let topology = match job.class {
         Class::LineSet | Class::IndexedLineSet => Topology::Lines,
@@ -141,6 +144,20 @@ fn styled_faces(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
     (primitives > 0).then_some(Measure {
         topology,
         primitives,
+        bounds,
+    })
+}
+
+/// A curve or surface, whose size only its mesh tells.
+fn made_nurbs(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
+    // What is wrong with a shape is said when it is made.
+    let mesh = nurbs::mesh(job, attributes, &mut Remarks::default())?;
+    let mut bounds = Aabb::EMPTY;
+    let corners = mesh.indices.iter();
+    corners.for_each(|&i| bounds.include(mesh.p_in_local(i)));
+    Some(Measure {
+        topology: mesh.topology,
+        primitives: mesh.primitive_count(),
         bounds,
     })
 }

@@ -12,8 +12,10 @@ mod lines;
 mod made;
 mod measure;
 mod normals;
+mod nurbs;
 mod outline;
 mod primitives;
+mod profiles;
 mod texcoords;
 mod values;
 
@@ -23,7 +25,7 @@ use rustc_hash::FxHashMap;
 use crate::graph::NodeId;
 use crate::registry::Class;
 use crate::remarks::Remarks;
-use crate::resolve::{ColorSource, State, Style, TexCoords};
+use crate::resolve::{ColorSource, ProfileList, State, Style, TexCoords};
 use crate::scene::{Mesh, MeshId, Topology};
 
 pub use measure::Measure;
@@ -32,6 +34,7 @@ use crate::graph::Graph;
 use assemble::Assembler;
 pub(crate) use attributes::{Attributes, has_texcoords};
 pub(crate) use made::{Complaint, MadeFaces, elevation_grid, extrusion};
+pub(crate) use nurbs::{is_nurbs, is_trimmed};
 pub(crate) use primitives::is_closed;
 
 /// All that a mesh depends on.
@@ -47,6 +50,9 @@ struct MeshKey {
     ordering: crate::resolve::Ordering,
     crease_angle: u64,
     complexity: u64,
+    /// Of a surface that profiles trim: them, and their points.
+    profiles: Option<(ProfileList, Option<NodeId>)>,
+    chord: Option<u64>,
     style: Style,
     lit: bool,
 }
@@ -88,6 +94,10 @@ pub struct Job<'a> {
     pub fans: bool,
     /// The faces of a shape that is given by rule.
     pub made: Option<&'a MadeFaces>,
+    /// Of NURBS: the chord asked for, in the shape's own frame.
+    pub chord: Option<f64>,
+    /// Of NURBS surfaces: the profiles that trim it.
+    pub profiles: Vec<NodeId>,
 }
 
 impl ShapeMaker {
@@ -111,6 +121,8 @@ impl ShapeMaker {
             ordering: state.hints.ordering,
             crease_angle: state.hints.crease_angle_rad.to_bits(),
             complexity: state.complexity.to_bits(),
+            profiles: is_trimmed(job.class).then_some((state.profiles, state.profile_coordinates)),
+            chord: job.chord.map(f64::to_bits),
             style: job.style,
             lit: job.lit,
         }
@@ -182,6 +194,7 @@ impl ShapeMaker {
                 primitives::mesh(job, attributes)
                     .and_then(|m| outline::styled_primitive(m, job.style))
             }
+            _ if is_nurbs(job.class) => nurbs::mesh(job, attributes, remarks),
             Class::LineSet | Class::IndexedLineSet => {
                 let mut segments = lines::segments(job, attributes, remarks);
                 self.assembler
@@ -210,24 +223,25 @@ impl ShapeMaker {
 
     /// Whether shapes of this class are made here.
     pub fn knows(class: Class) -> bool {
-        matches!(
-            class,
-            Class::Cube
-                | Class::Sphere
-                | Class::Cone
-                | Class::Cylinder
-                | Class::FaceSet
-                | Class::IndexedFaceSet
-                | Class::TriangleStripSet
-                | Class::IndexedTriangleStripSet
-                | Class::QuadMesh
-                | Class::LineSet
-                | Class::IndexedLineSet
-                | Class::PointSet
-                | Class::IndexedPointSet
-                | Class::MarkerSet
-                | Class::IndexedMarkerSet
-        )
+        is_nurbs(class)
+            || matches!(
+                class,
+                Class::Cube
+                    | Class::Sphere
+                    | Class::Cone
+                    | Class::Cylinder
+                    | Class::FaceSet
+                    | Class::IndexedFaceSet
+                    | Class::TriangleStripSet
+                    | Class::IndexedTriangleStripSet
+                    | Class::QuadMesh
+                    | Class::LineSet
+                    | Class::IndexedLineSet
+                    | Class::PointSet
+                    | Class::IndexedPointSet
+                    | Class::MarkerSet
+                    | Class::IndexedMarkerSet
+            )
     }
 }
 

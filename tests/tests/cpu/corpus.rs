@@ -246,14 +246,16 @@ fn files_that_coin_refuses_are_read_and_reported() {
     let refused: Vec<_> = outcomes.iter().filter(|o| !o.entry.coin_ok).collect();
     for outcome in &refused {
         let told = |d: &Diagnostic| d.severity >= Severity::Warning && d.pos.line > 0;
+        // What noodle wrote is read whole; all else that Coin refuses lacks something.
+        let is_whole = outcome.diagnostics.is_empty() && outcome.entry.path.contains("/noodle/");
         assert!(
-            outcome.diagnostics.iter().any(told),
+            is_whole || outcome.diagnostics.iter().any(told),
             "{}",
             outcome.entry.path
         );
     }
     let with_geometry = refused.iter().filter(|o| o.totals.bounds.is_some()).count();
-    assert!(with_geometry >= 8, "{with_geometry} of {}", refused.len());
+    assert!(with_geometry >= 25, "{with_geometry} of {}", refused.len());
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use tests::reference::{RefCamera, RefLens};
 use tests::shadow_scenes::scene_of;
-use viewer::frame::{PassKind, Plan, Settings, Skip, SkipReason};
+use viewer::frame::{PassKind, Plan, Settings, Shadows, Skip, SkipReason};
 
 use super::device::{Shot, Stage};
 
@@ -154,8 +154,9 @@ fn what_is_skipped_is_counted() {
     let glass = "Separator { Material { transparency 0.5 } \
                  Separator { Translation { translation 9 5 20 } Cube { } } \
                  Translation { translation 1 1 1 } Cube { } }\n";
-    // A lamp that shines some four units far.
+    // A lamp that shines some four units far; another light stands before it, in the first pass.
     let weak = "Environment { attenuation 100 0 0 } PointLight { location -2 1 2 }\n";
+    let lamp = "PointLight { location 0 4 0 }\n";
     let far = "Separator { Translation { translation -9 0 -9 } Sphere { radius 0.5 } }\n";
     type Row<'a> = (
         &'a str,
@@ -173,7 +174,7 @@ fn what_is_skipped_is_counted() {
         ),
         (
             "behind, lit",
-            vec![SUN, FLOOR, BEHIND, BEHIND],
+            vec![lamp, SUN, FLOOR, BEHIND, BEHIND],
             is_light,
             vec![(behind, 2)],
         ),
@@ -185,19 +186,19 @@ fn what_is_skipped_is_counted() {
         ),
         (
             "not lit",
-            vec![SUN, FLOOR, &unlit],
+            vec![lamp, SUN, FLOOR, &unlit],
             is_light,
             vec![(SkipReason::Unlit, 1)],
         ),
         (
             "not in scope",
-            vec![&scoped, FLOOR],
+            vec![lamp, &scoped, FLOOR],
             is_light,
             vec![(SkipReason::OutOfScope, 1)],
         ),
         (
             "beyond the lamp",
-            vec![weak, FLOOR, far],
+            vec![SUN, weak, FLOOR, far],
             is_light,
             vec![(SkipReason::OutOfReach, 1)],
         ),
@@ -240,10 +241,25 @@ fn light_without_shadow_joins_the_first_pass() {
     let caster = "Separator { Translation { translation 0 0 -29.5 } Cube { } }\n";
     let shot = shoot(&mut stage(&[SUN, FLOOR, lines, caster]), &camera);
     assert!(
-        shot.plan.brief().starts_with("first x3; "),
+        shot.plan.brief().starts_with("depth x3; volumes 0 "),
         "{}",
         shot.plan.brief()
     );
+}
+
+#[test]
+fn what_stands_twice_in_one_place_is_lit_once() {
+    let lamps = "PointLight { location -1 4 1 } PointLight { location 2 4 1 }\n";
+    for shadows in [Settings::default().shadows, Shadows::None] {
+        let settings = Settings {
+            shadows,
+            ..Settings::default()
+        };
+        let shoot = |body: &[&str]| stage(body).shoot(&over(), SIZE, &settings);
+        let once = shoot(&[SUN, lamps, FLOOR, CUBE]);
+        let twice = shoot(&[SUN, lamps, FLOOR, FLOOR, CUBE, CUBE]);
+        assert!(once.rgba == twice.rgba, "{}", once.plan.brief());
+    }
 }
 
 #[test]
@@ -291,12 +307,12 @@ fn plans() {
         (
             "sun",
             vec![SUN, FLOOR, CUBE],
-            "first x2; volumes 0 z-fail x0 z-pass x2; light 0 x2",
+            "depth x2; volumes 0 z-fail x0 z-pass x2; first + light 0 x2",
         ),
         (
             "two lights, glass, and something behind",
             vec![SUN, lamp, FLOOR, CUBE, glass, BEHIND],
-            "first x2; volumes 0 z-fail x0 z-pass x2; light 0 x2; \
+            "depth x2; volumes 0 z-fail x0 z-pass x2; first + light 0 x2; \
              volumes 1 z-fail x0 z-pass x2; light 1 x2; transparent x1",
         ),
     ];

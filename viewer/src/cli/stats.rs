@@ -220,20 +220,20 @@ impl Told<'_> {
 
 fn pass(pass: &Pass, report: PassReport) -> Value {
     let (kind, light) = match pass.kind {
-        PassKind::First { light } => ("first", light),
+        PassKind::Depth => ("depth", None),
+        PassKind::First { light, .. } => ("first", light),
         PassKind::Volumes { light } => ("volumes", Some(light)),
         PassKind::Map { light } => ("map", Some(light)),
         PassKind::Rays { light } => ("rays", Some(light)),
         PassKind::Light { light, .. } => ("light", Some(light)),
         PassKind::Transparent => ("transparent", None),
     };
-    let objects: usize = pass.draws.iter().map(|draw| draw.objects.len()).sum();
     let z_pass = pass.volumes.iter().filter(|volume| volume.is_z_pass);
     let z_pass = z_pass.count();
     json!({
         "kind": kind,
         "light": light,
-        "objects": objects,
+        "objects": pass.object_count(),
         "z_pass": z_pass,
         "z_fail": pass.volumes.len() - z_pass,
         "draw_calls": report.draw_calls,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use scenegraph::scene::{MeshId, TextureId};
 
-use super::plan::{Draw, Skip, SkipReason};
+use super::plan::{Draw, Pixels, Skip, SkipReason};
 use crate::content::Object;
 use crate::shader::ShaderKey;
 
@@ -26,7 +26,7 @@ struct LastDraw {
 
 impl Draws {
     /// Adds an object to the last draw if it can be drawn with it.
-    pub fn add(&mut self, index: u32, object: &Object, shader: ShaderKey) {
+    pub fn add(&mut self, index: u32, object: &Object, shader: ShaderKey, pixels: Pixels) {
         let this = LastDraw {
             mesh: object.mesh,
             texture: object.texture,
@@ -37,6 +37,7 @@ impl Draws {
             Some(draw)
                 if draw.objects.end == index
                     && draw.shader == shader
+                    && draw.pixels == pixels
                     && self.last.as_ref() == Some(&this) =>
             {
                 draw.objects.end += 1;
@@ -44,6 +45,7 @@ impl Draws {
             _ => self.list.push(Draw {
                 objects: index..index + 1,
                 shader,
+                pixels,
             }),
         }
         self.last = Some(this);

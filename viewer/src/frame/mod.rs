@@ -5,6 +5,7 @@
 mod cull;
 mod far_plane;
 mod lists;
+mod needs;
 mod plan;
 mod planner;
 mod scissor;
@@ -12,6 +13,6 @@ mod settings;
 
 pub use cull::Frustum;
 pub use far_plane::{far_plane, is_cut, rel_plane};
-pub use plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason, VolumeDraw};
+pub use plan::{Draw, Pass, PassKind, Pixels, Plan, Skip, SkipReason, VolumeDraw};
 pub use planner::plan;
 pub use settings::{Extraction, Settings, Shadows, VolumeMethod};

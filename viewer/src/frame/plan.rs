@@ -14,6 +14,19 @@ pub struct Draw {
     pub objects: Range<u32>,
     /// By which shader.
     pub shader: ShaderKey,
+    /// Which of their pixels.
+    pub pixels: Pixels,
+}
+
+/// Which pixels a draw may change, by what shadow volumes left in the stencil.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Pixels {
+    /// All.
+    All,
+    /// Those in the light.
+    Lit,
+    /// Those in shadow.
+    Shadowed,
 }
 
 /// The shadow volume of one object.
@@ -33,10 +46,16 @@ pub struct VolumeDraw {
 /// What a pass does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PassKind {
-    /// Emission and ambient light, with one light if it needs no stencil.
+    /// Draws depth alone, for shadows that must be known before the first light.
+    Depth,
+    /// Emission and ambient light together with the first light.
     First {
         /// Index into [`Plan::lights`].
         light: Option<u32>,
+        /// How its shadows are asked for.
+        shadow: ShadowLookup,
+        /// There was a pass for the depth.
+        has_depth: bool,
     },
     /// Counts shadow volumes into the stencil.
     Volumes {
@@ -59,8 +78,8 @@ pub enum PassKind {
         light: u32,
         /// How its shadows are asked for.
         shadow: ShadowLookup,
-        /// Only where the stencil is zero.
-        tests_stencil: bool,
+        /// Shadow volumes are in the stencil.
+        has_volumes: bool,
     },
     /// Blends transparent objects, back to front.
     Transparent,
@@ -79,6 +98,17 @@ pub struct Pass {
     pub scissor: Option<[u32; 4]>,
     /// What it leaves out.
     pub skipped: Vec<Skip>,
+}
+
+impl Pass {
+    /// Objects drawn; one whose lit and shadowed pixels are drawn apart counts once.
+    pub fn object_count(&self) -> usize {
+        let whole = self.draws.iter();
+        whole
+            .filter(|draw| draw.pixels != Pixels::Shadowed)
+            .map(|draw| draw.objects.len())
+            .sum()
+    }
 }
 
 /// Why something was left out.
@@ -153,8 +183,11 @@ impl Plan {
                 line.push_str("; ");
             }
             let _ = match pass.kind {
-                PassKind::First { light: None } => write!(line, "first"),
-                PassKind::First { light: Some(light) } => write!(line, "first + light {light}"),
+                PassKind::Depth => write!(line, "depth"),
+                PassKind::First { light: None, .. } => write!(line, "first"),
+                PassKind::First {
+                    light: Some(light), ..
+                } => write!(line, "first + light {light}"),
                 PassKind::Volumes { light } => {
                     let z_pass = pass.volumes.iter().filter(|v| v.is_z_pass).count();
                     let z_fail = pass.volumes.len() - z_pass;
@@ -166,8 +199,7 @@ impl Plan {
                 PassKind::Transparent => write!(line, "transparent"),
             };
             if pass.volumes.is_empty() {
-                let objects: usize = pass.draws.iter().map(|d| d.objects.len()).sum();
-                let _ = write!(line, " x{objects}");
+                let _ = write!(line, " x{}", pass.object_count());
             }
         }
         line

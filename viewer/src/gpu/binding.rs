@@ -24,7 +24,7 @@ pub struct Layouts {
     pub map_view: BindGroupLayout,
     /// Group 3: depth maps, their sampler, their views.
     pub shadow_map: BindGroupLayout,
-    /// Group 3: the mask of rays.
+    /// Group 3: the mask of rays, or the stencil.
     pub shadow_mask: BindGroupLayout,
 }
 

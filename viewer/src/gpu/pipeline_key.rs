@@ -1,5 +1,6 @@
 //! Everything that a pipeline depends on.
 
+use crate::frame::Pixels;
 use crate::shader::ShaderKey;
 
 /// The bits of the stencil that count while one keeps the result of earlier layers.
@@ -10,13 +11,14 @@ pub const LAYER_FLAG: u32 = 0x80;
 /// How a surface shader is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
+    /// Nearest wins, depth is written and nothing else.
+    Depth,
     /// Nearest wins, depth is written.
     First,
-    /// Added where the depth is equal.
-    Add {
-        /// And where the stencil is zero.
-        tests_stencil: bool,
-    },
+    /// Replaces what is there where the depth is equal.
+    FirstAtDepth,
+    /// Added where the depth is equal, once for each pixel.
+    Add,
     /// Blended over what is there.
     Blend,
 }
@@ -65,6 +67,8 @@ pub enum PipelineKey {
         shader: ShaderKey,
         /// In this stage.
         stage: Stage,
+        /// On these pixels.
+        pixels: Pixels,
         /// Without these faces.
         cull: Cull,
         /// Front is clockwise.

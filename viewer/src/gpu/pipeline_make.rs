@@ -5,6 +5,7 @@ use super::device::Gpu;
 use super::pipeline_key::{Cull, LAYER_BITS, Stage, VolumePart};
 use super::targets::{COLOR_FORMAT, DEPTH_FORMAT, MAP_FORMAT};
 use crate::content::Primitive;
+use crate::frame::Pixels;
 use crate::shader::{ShaderKey, ShadowLookup};
 
 fn vertex_buffers(shader: &ShaderKey) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
@@ -43,11 +44,11 @@ pub fn surface(
     layouts: &Layouts,
     module: &wgpu::ShaderModule,
     shader: &ShaderKey,
-    (stage, cull, front_face, samples): (Stage, Cull, wgpu::FrontFace, u32),
+    (stage, pixels, cull, front_face, samples): (Stage, Pixels, Cull, wgpu::FrontFace, u32),
 ) -> wgpu::RenderPipeline {
     let group_3 = match shader.light().map(|light| light.shadow) {
         Some(ShadowLookup::Map | ShadowLookup::CubeMap) => Some(&layouts.shadow_map),
-        Some(ShadowLookup::Mask) => Some(&layouts.shadow_mask),
+        Some(ShadowLookup::Mask | ShadowLookup::Stencil) => Some(&layouts.shadow_mask),
         _ => None,
     };
     let group_2 = match (shader.primitive, shader.texture) {
@@ -67,8 +68,8 @@ pub fn surface(
         operation: add,
     };
     let blend = match stage {
-        Stage::First => None,
-        Stage::Add { .. } => Some(wgpu::BlendState {
+        Stage::Depth | Stage::First | Stage::FirstAtDepth => None,
+        Stage::Add => Some(wgpu::BlendState {
             color: over(one, one),
             alpha: over(wgpu::BlendFactor::Zero, one),
         }),
@@ -80,12 +81,21 @@ pub fn surface(
             alpha: over(wgpu::BlendFactor::Zero, one),
         }),
     };
+    let targets = [Some(wgpu::ColorTargetState {
+        format: COLOR_FORMAT,
+        blend,
+        write_mask: wgpu::ColorWrites::ALL,
+    })];
     let stencil_face = wgpu::StencilFaceState {
-        compare: match stage {
-            Stage::Add {
-                tests_stencil: true,
-            } => wgpu::CompareFunction::Equal,
-            _ => wgpu::CompareFunction::Always,
+        compare: match pixels {
+            Pixels::All => wgpu::CompareFunction::Always,
+            Pixels::Lit => wgpu::CompareFunction::Equal,
+            Pixels::Shadowed => wgpu::CompareFunction::NotEqual,
+        },
+        // Of surfaces in one place one is lit: it takes the pixel out of the lit ones.
+        pass_op: match stage {
+            Stage::Add => wgpu::StencilOperation::IncrementClamp,
+            _ => wgpu::StencilOperation::Keep,
         },
         ..wgpu::StencilFaceState::IGNORE
     };
@@ -110,29 +120,25 @@ pub fn surface(
             },
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
-                depth_write_enabled: Some(stage == Stage::First),
+                depth_write_enabled: Some(matches!(stage, Stage::Depth | Stage::First)),
                 depth_compare: Some(match stage {
-                    Stage::Add { .. } => wgpu::CompareFunction::Equal,
+                    Stage::FirstAtDepth | Stage::Add => wgpu::CompareFunction::Equal,
                     _ => wgpu::CompareFunction::Greater,
                 }),
                 stencil: wgpu::StencilState {
                     front: stencil_face,
                     back: stencil_face,
                     read_mask: 0xff,
-                    write_mask: 0,
+                    write_mask: if stage == Stage::Add { 0xff } else { 0 },
                 },
                 bias: wgpu::DepthBiasState::default(),
             }),
             multisample: multisample(samples),
-            fragment: Some(wgpu::FragmentState {
+            fragment: (stage != Stage::Depth).then_some(wgpu::FragmentState {
                 module,
                 entry_point: Some("shade"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: COLOR_FORMAT,
-                    blend,
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,

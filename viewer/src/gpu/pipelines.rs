@@ -73,12 +73,14 @@ impl Pipelines {
             PipelineKey::Surface {
                 shader,
                 stage,
+                pixels,
                 cull,
                 is_mirrored,
                 samples,
             } => {
                 let front = front_face(!is_mirrored);
-                surface(gpu, layouts, module, &shader, (stage, cull, front, samples))
+                let drawn = (stage, pixels, cull, front, samples);
+                surface(gpu, layouts, module, &shader, drawn)
             }
             PipelineKey::Volume {
                 part,

@@ -34,7 +34,11 @@ pub(super) fn surface_key(
     samples: u32,
 ) -> PipelineKey {
     let stage = match pass.kind {
-        PassKind::Light { tests_stencil, .. } => Stage::Add { tests_stencil },
+        PassKind::Depth => Stage::Depth,
+        PassKind::First {
+            has_depth: true, ..
+        } => Stage::FirstAtDepth,
+        PassKind::Light { .. } => Stage::Add,
         PassKind::Transparent => Stage::Blend,
         _ => Stage::First,
     };
@@ -42,6 +46,7 @@ pub(super) fn surface_key(
     PipelineKey::Surface {
         shader: draw.shader,
         stage,
+        pixels: draw.pixels,
         cull,
         is_mirrored: object.is_mirrored && !is_stroke,
         samples,
@@ -160,9 +165,9 @@ impl Recorder<'_> {
             PassKind::Volumes { light } => self.volumes(encoder, pass, light),
             PassKind::Map { light } => self.map(encoder, pass, light),
             PassKind::Rays { light } => self.rays(encoder, light),
-            PassKind::First { light } => self.surfaces(encoder, pass, light.unwrap_or(0), true),
-            PassKind::Light { light, .. } => self.surfaces(encoder, pass, light, false),
-            PassKind::Transparent => self.surfaces(encoder, pass, 0, false),
+            PassKind::First { light, .. } => self.surfaces(encoder, pass, light.unwrap_or(0)),
+            PassKind::Light { light, .. } => self.surfaces(encoder, pass, light),
+            PassKind::Depth | PassKind::Transparent => self.surfaces(encoder, pass, 0),
         }
     }
 
@@ -214,26 +219,34 @@ impl Recorder<'_> {
         pass
     }
 
-    fn surfaces(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        pass: &Pass,
-        light: u32,
-        clears: bool,
-    ) -> PassReport {
+    fn surfaces(&self, encoder: &mut wgpu::CommandEncoder, pass: &Pass, light: u32) -> PassReport {
         let store = wgpu::StoreOp::Store;
-        let depth = clears.then_some(wgpu::Operations {
+        let begins = matches!(
+            pass.kind,
+            PassKind::Depth
+                | PassKind::First {
+                    has_depth: false,
+                    ..
+                }
+        );
+        let depth = begins.then_some(wgpu::Operations {
             load: wgpu::LoadOp::Clear(0.0),
             store,
         });
-        let stencil = clears.then_some(wgpu::Operations {
-            load: wgpu::LoadOp::Clear(0),
-            store,
-        });
-        let mut render_pass = self.begin(encoder, "surfaces", true, depth, stencil, light);
+        let load = match pass.kind {
+            PassKind::Light {
+                has_volumes: false, ..
+            } => wgpu::LoadOp::Clear(0),
+            _ if begins => wgpu::LoadOp::Clear(0),
+            _ => wgpu::LoadOp::Load,
+        };
+        let writes_stencil = begins || matches!(pass.kind, PassKind::Light { .. });
+        let stencil = writes_stencil.then_some(wgpu::Operations { load, store });
+        let has_color = pass.kind != PassKind::Depth;
+        let mut render_pass = self.begin(encoder, "surfaces", has_color, depth, stencil, light);
         let mut bound = Bound::default();
         let mut report = PassReport::default();
-        if let PassKind::Light { shadow, .. } = pass.kind {
+        if let PassKind::First { shadow, .. } | PassKind::Light { shadow, .. } = pass.kind {
             bound.shadow = self.shadow_group(shadow, light);
         }
         cut(&mut render_pass, pass.scissor);
@@ -346,6 +359,7 @@ impl Recorder<'_> {
                 self.renderer.maps.get(&light).map(|map| &map.group)
             }
             ShadowLookup::Mask => self.renderer.rays.as_ref().map(|rays| &rays.mask_group),
+            ShadowLookup::Stencil => self.renderer.stencil.as_ref(),
         }
     }
 }

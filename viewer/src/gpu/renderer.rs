@@ -81,6 +81,8 @@ pub struct Renderer {
     computed: FxHashMap<u32, (LightShape, ComputedVolumes)>,
     pub(super) maps: FxHashMap<u32, ShadowMap>,
     pub(super) rays: Option<Rays>,
+    /// The stencil of one sample a pixel, to read.
+    pub(super) stencil: Option<wgpu::BindGroup>,
     scene: Arc<Scene>,
     /// Time taken to upload the scene.
     pub upload_time: Duration,
@@ -126,6 +128,7 @@ impl Renderer {
             computed: FxHashMap::default(),
             maps: FxHashMap::default(),
             rays: None,
+            stencil: None,
             scene,
             upload_time: start.elapsed(),
         })
@@ -237,9 +240,16 @@ impl Renderer {
         let fits = self.targets.as_ref().is_some_and(|targets| {
             (targets.width, targets.height, targets.samples) == (width, height, samples)
         });
-        if !fits {
-            self.targets = Some(Targets::new(&self.gpu, width, height, samples));
+        if fits {
+            return;
         }
+        let targets = Targets::new(&self.gpu, width, height, samples);
+        self.stencil = (samples == 1).then(|| {
+            let view = wgpu::BindingResource::TextureView(&targets.stencil_only);
+            let layout = &self.layouts.shadow_mask;
+            binding::group(&self.gpu.device, "stencil", layout, vec![view])
+        });
+        self.targets = Some(targets);
     }
 
     fn prepare_shadows(&mut self, plan: &Plan, view: &View, settings: &Settings) {

@@ -26,6 +26,8 @@ pub struct Targets {
     pub depth: wgpu::TextureView,
     /// Depth, to read.
     pub depth_only: wgpu::TextureView,
+    /// Stencil, to read.
+    pub stencil_only: wgpu::TextureView,
     /// The final image.
     pub output: wgpu::Texture,
     /// The same, to draw into.
@@ -81,6 +83,10 @@ impl Targets {
             depth: view(&depth),
             depth_only: depth.create_view(&wgpu::TextureViewDescriptor {
                 aspect: wgpu::TextureAspect::DepthOnly,
+                ..wgpu::TextureViewDescriptor::default()
+            }),
+            stencil_only: depth.create_view(&wgpu::TextureViewDescriptor {
+                aspect: wgpu::TextureAspect::StencilOnly,
                 ..wgpu::TextureViewDescriptor::default()
             }),
             output_view: view(&output),

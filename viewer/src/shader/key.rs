@@ -32,6 +32,8 @@ pub enum ShadowLookup {
     CubeMap,
     /// A mask with a bit for each sample of a pixel.
     Mask,
+    /// What shadow volumes left in the stencil, of one sample a pixel.
+    Stencil,
 }
 
 /// One light in a shader.
@@ -65,8 +67,10 @@ impl LightKey {
 /// What a pass adds to the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Contribution {
-    /// Emission and ambient light, or the whole of what no light reaches; with one light if it
-    /// needs no stencil.
+    /// Depth alone.
+    Depth,
+    /// Emission and ambient light, or the whole of what no light reaches; with the first light
+    /// where it shines.
     First(Option<LightKey>),
     /// One further light.
     Light(LightKey),
@@ -77,6 +81,8 @@ pub enum Contribution {
 /// Which terms a shader computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Shade {
+    /// None: there are no colours.
+    Nothing,
     /// The base colour as it is.
     Unlit,
     /// Emission and ambient light alone.
@@ -111,6 +117,19 @@ pub struct ShaderKey {
 impl ShaderKey {
     /// The key for an object's look in a pass; what the text would not show is dropped.
     pub fn new(look: &Look, contribution: Contribution, is_parallel: bool) -> Self {
+        if contribution == Contribution::Depth {
+            return Self {
+                primitive: look.primitive,
+                contribution,
+                shade: Shade::Nothing,
+                is_two_sided: false,
+                is_specular: false,
+                is_parallel: false,
+                has_colors: false,
+                texture: None,
+                fog: None,
+            };
+        }
         let blends = contribution == Contribution::All;
         // What no light reaches shows the same in every pass that draws it whole.
         let contribution = match contribution {
@@ -157,7 +176,7 @@ impl ShaderKey {
         match self.contribution {
             Contribution::First(light) => light,
             Contribution::Light(light) => Some(light),
-            Contribution::All => None,
+            Contribution::Depth | Contribution::All => None,
         }
     }
 
@@ -232,7 +251,7 @@ fn contributions(is_transparent: bool) -> Vec<Contribution> {
     if is_transparent {
         return vec![Contribution::All];
     }
-    let mut all = vec![Contribution::First(None)];
+    let mut all = vec![Contribution::Depth, Contribution::First(None)];
     for form in [
         LightForm::Directional,
         LightForm::Point,
@@ -250,6 +269,7 @@ fn contributions(is_transparent: bool) -> Vec<Contribution> {
                 ShadowLookup::Map,
                 ShadowLookup::CubeMap,
                 ShadowLookup::Mask,
+                ShadowLookup::Stencil,
             ] {
                 let light = LightKey {
                     form,

@@ -3,6 +3,8 @@
 //! Pure: neither device nor cache. What is compiled, and how often, is the business of `gpu`.
 
 mod emit;
+mod emit_light;
+mod emit_place;
 mod key;
 mod layout;
 #[cfg(test)]

@@ -77,7 +77,7 @@ fn statistics_say_what_was_drawn() {
         ("dark.iv", "/lights/0/kind", "point".into()),
         ("dark.iv", "/lights/0/skipped", "black light".into()),
         ("gate_shadow.iv", "/passes/1/kind", "volumes".into()),
-        ("gate_shadow.iv", "/passes/2/kind", "light".into()),
+        ("gate_shadow.iv", "/passes/2/kind", "first".into()),
         ("gate_shadow.iv", "/lights/0/skipped", Value::Null),
         ("gate_shadow.iv --shadows none", "/passes/1", Value::Null),
         ("inline_image.iv", "/scene/images", 1.into()),

@@ -44,7 +44,7 @@ fn closest_class() {
         ("Sorter", None),
         ("Cub", None),
         ("", None),
-        ("GeneralizedCylinder", None),
+        ("SwitchboardOperator", None),
     ];
     for (name, expected) in rows {
         assert_eq!(Class::closest(name), expected, "{name:?}");

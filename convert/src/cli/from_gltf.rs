@@ -1,0 +1,71 @@
+//! One glTF file to Inventor text, with its images beside it. No file is written over but an older
+//! text of the same name.
+
+use std::fs;
+use std::path::Path;
+
+use convert::command::{atomic, model};
+use convert::{InventorOptions, Note, gltf_to_inventor};
+use iv_parser::{Diagnostic, Severity, SourcePos};
+use serde_json::json;
+
+use super::job::{Outcome, Settings};
+
+/// Why glTF is not made of glTF.
+pub const IS_GLTF: &str = "it is glTF already; glTF is made of Inventor models only, and Inventor of glTF with `-o NAME.iv`";
+
+/// Converts the bytes of a `.glb` or `.gltf`.
+pub fn to_inventor(
+    outcome: &mut Outcome,
+    bytes: &[u8],
+    path: &Path,
+    settings: &Settings,
+) -> Result<(), String> {
+    let name = outcome.input.display().to_string();
+    let files = model::file_loader(&outcome.input, &settings.search);
+    let beside = model::canonical_folder_of(&outcome.input);
+    let folder = model::folder_of(path);
+    let existing = |name: &str| fs::read(folder.join(name)).ok();
+    let options = InventorOptions {
+        embed_images: settings.embed,
+        ..InventorOptions::default()
+    };
+    let made = gltf_to_inventor(bytes, &name, &beside, &files, &existing, &options)
+        .map_err(|error| error.to_string())?;
+    atomic::make_folder_of(path)?;
+    let mut written = 0;
+    for (name, bytes) in &made.beside {
+        let file = folder.join(name);
+        atomic::make_folder_of(&file)?;
+        written += atomic::write(&file, |out| out.write_all(bytes))
+            .map_err(|error| atomic::cannot_write(&file, &error))?;
+    }
+    written += atomic::write(path, |out| out.write_all(&made.text))
+        .map_err(|error| atomic::cannot_write(path, &error))?;
+    outcome.bytes_out = written;
+    let counts = made.counts;
+    outcome.counts = json!({
+        "nodes": counts.nodes,
+        "meshes": counts.meshes,
+        "instances": counts.instances,
+        "materials": counts.materials,
+        "files": made.beside.len(),
+        "lights": counts.lights,
+        "cameras": counts.cameras,
+    });
+    let (losses, remarks): (Vec<_>, Vec<_>) = made.notes.into_iter().partition(|n| n.is_loss);
+    let diagnostic = |note: Note, severity| Diagnostic {
+        severity,
+        code: note.code,
+        message: note.message,
+        hint: note.hint.to_owned(),
+        file: name.as_str().into(),
+        pos: SourcePos::default(),
+        snippet: None,
+    };
+    let warnings = losses.into_iter().map(|n| diagnostic(n, Severity::Warning));
+    outcome.warnings.extend(warnings);
+    let notes = remarks.into_iter().map(|n| diagnostic(n, Severity::Note));
+    outcome.diagnostics.extend(notes);
+    Ok(())
+}

@@ -1,0 +1,265 @@
+//! The exact way back: a glTF file that carries the Inventor source it was made of.
+//!
+//! On the way back the source is converted again and compared with the file, object by object. Where
+//! nothing was edited, the source comes back byte for byte. What was edited is put into the source's
+//! text at its place; the result is converted and compared once more, so that an edit which did not
+//! arrive is never taken for one that did. What cannot be put there makes the text anew, as of any
+//! glTF.
+
+mod archive;
+mod edits;
+mod paths;
+mod recorder;
+
+use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+
+use scenegraph::ResolveOptions;
+use scenegraph::scene::Scene;
+
+pub(crate) use archive::{Archive, Content, Unpacked};
+pub use recorder::Recorder;
+
+use crate::read::{Objects, ReadError, ReadLimits, carried_source};
+use crate::to_inventor::{Input, InventorFiles, Note};
+use crate::{Container, Error, Options, Report, write_file, write_glb};
+use archive::crc;
+use edits::Edits;
+
+/// As [`write_file`], with the source in the file: `text`, the bytes of the model, and what it read
+/// by way of `recorder`. Takes the time of two conversions, and memory for a `.glb` besides.
+///
+/// # Errors
+///
+/// As [`write_file`].
+pub fn write_file_with_source(
+    scene: &Scene,
+    options: &Options,
+    recorder: &Recorder<'_>,
+    text: &[u8],
+    path: &Path,
+) -> Result<Report, Error> {
+    let source = packed(scene, options, recorder, text)?;
+    let options = Options {
+        source: Some(source.into()),
+        ..options.clone()
+    };
+    write_file(scene, &options, recorder, path)
+}
+
+/// As [`write_glb`], with the source in the file.
+///
+/// # Errors
+///
+/// As [`write_glb`].
+pub fn write_glb_with_source(
+    scene: &Scene,
+    options: &Options,
+    recorder: &Recorder<'_>,
+    text: &[u8],
+    out: &mut dyn Write,
+) -> Result<Report, Error> {
+    let source = packed(scene, options, recorder, text)?;
+    let options = Options {
+        source: Some(source.into()),
+        ..options.clone()
+    };
+    write_glb(scene, &options, recorder, out)
+}
+
+/// The source as JSON text.
+fn packed(
+    scene: &Scene,
+    options: &Options,
+    recorder: &Recorder<'_>,
+    text: &[u8],
+) -> Result<String, Error> {
+    let glb = plain_glb(scene, options, recorder)?;
+    let images = crate::read::images_of(&glb).unwrap_or_default();
+    let mut files = vec![(String::new(), Content::Here(text.into()))];
+    for (path, bytes) in recorder.files() {
+        let same = images
+            .iter()
+            .position(|image| image.as_deref() == Some(&*bytes));
+        let content = match same {
+            Some(index) => Content::Image {
+                index,
+                crc: crc(&bytes),
+            },
+            None => Content::Here(bytes),
+        };
+        files.push((path, content));
+    }
+    let archive = Archive {
+        files,
+        glb: (crc(&glb), glb.len() as u64),
+        options: String::new(),
+    };
+    Ok(archive.pack()?)
+}
+
+/// The `.glb` of a scene without a source.
+fn plain_glb(
+    scene: &Scene,
+    options: &Options,
+    textures: &dyn crate::TextureLoader,
+) -> Result<Vec<u8>, Error> {
+    let options = Options {
+        container: Container::Glb,
+        source: None,
+        ..options.clone()
+    };
+    let mut glb = Vec::new();
+    write_glb(scene, &options, textures, &mut glb)?;
+    Ok(glb)
+}
+
+/// A source that a file carries, with the images of the file.
+pub(crate) struct Carried {
+    pub(crate) archive: Archive,
+    pub(crate) files: Unpacked,
+    /// Paths of images that are no longer those of the source.
+    pub(crate) images_edited: Vec<String>,
+}
+
+impl Carried {
+    /// Puts images where the source has them.
+    pub(crate) fn new(archive: Archive, images: &[Option<Arc<[u8]>>]) -> Self {
+        let sums: Vec<Option<u32>> = images.iter().map(|i| i.as_deref().map(crc)).collect();
+        let mut files = Vec::new();
+        let mut images_edited = Vec::new();
+        for (path, content) in &archive.files {
+            match content {
+                Content::Here(bytes) => files.push((path.clone(), Arc::clone(bytes))),
+                Content::Image { index, crc } => {
+                    let same = sums.iter().position(|sum| *sum == Some(*crc));
+                    if same.is_none() {
+                        images_edited.push(path.clone());
+                    }
+                    let image = images.get(same.unwrap_or(*index)).cloned().flatten();
+                    files.extend(image.map(|bytes| (path.clone(), bytes)));
+                }
+            }
+        }
+        Self {
+            archive,
+            files: Unpacked { files },
+            images_edited,
+        }
+    }
+}
+
+/// The way back.
+pub(crate) enum Back {
+    /// By the source.
+    Source(InventorFiles),
+    /// There is none, or none that can be used.
+    No(Option<Note>),
+}
+
+/// Goes back by the source that a file carries.
+///
+/// # Errors
+///
+/// As [`read_gltf`](crate::read_gltf).
+pub(crate) fn back(input: &Input<'_>) -> Result<Back, ReadError> {
+    let Some(source) = carried_source(input.bytes)? else {
+        return Ok(Back::No(Some(Note {
+            code: "no-source",
+            message: "the file does not carry the Inventor text it was made of, if any: this text \
+                      is made of what it shows"
+                .to_owned(),
+            hint: "files written with --round-trip carry it",
+            is_loss: false,
+        })));
+    };
+    let archive = match Archive::unpack(&source) {
+        Ok(archive) => archive,
+        Err(why) => return Ok(Back::No(Some(unusable(&why)))),
+    };
+    let edited = Objects::read(
+        input.bytes,
+        input.beside,
+        input.loader,
+        &input.options.limits,
+    )?;
+    let carried = Carried::new(archive, &edited.images);
+    let limits = &input.options.limits;
+    let original = match again(&carried.files, carried.archive.root(), limits) {
+        Ok(original) => original,
+        Err(why) => return Ok(Back::No(Some(unusable(&why)))),
+    };
+    let edits = Edits::between(&original.objects, &edited);
+    if edits.is_empty() {
+        return Ok(Back::Source(unedited(input, &carried)));
+    }
+    let changed = edits.summary();
+    Ok(Back::No(Some(Note {
+        code: "edited",
+        message: format!("the file was edited ({changed}): its text is made anew of what it shows"),
+        hint: "comments, unknown nodes and all that is not shown are left out",
+        is_loss: true,
+    })))
+}
+
+fn unusable(why: &str) -> Note {
+    Note {
+        code: "source-unusable",
+        message: format!("the source in the file cannot be used: {why}"),
+        hint: "the text is made anew of what the file shows",
+        is_loss: true,
+    }
+}
+
+/// A source converted again.
+pub(crate) struct Again {
+    pub(crate) scene: Scene,
+    pub(crate) objects: Objects,
+    pub(crate) glb: (u32, u64),
+}
+
+/// Converts a source; says why that cannot be.
+fn again(files: &Unpacked, text: &[u8], limits: &ReadLimits) -> Result<Again, String> {
+    let graph = scenegraph::load(text, "source.iv", Path::new(""), files);
+    let scene = scenegraph::resolve(&graph, &ResolveOptions::default()).scene;
+    let glb = plain_glb(&scene, &Options::default(), files).map_err(|e| e.to_string())?;
+    let objects = Objects::read(&glb, Path::new(""), files, limits).map_err(|e| e.to_string())?;
+    Ok(Again {
+        scene,
+        objects,
+        glb: (crc(&glb), glb.len() as u64),
+    })
+}
+
+/// The source as it was, and what of it is not beside the output yet.
+fn unedited(input: &Input<'_>, carried: &Carried) -> InventorFiles {
+    let mut files = InventorFiles {
+        text: carried.archive.root().to_vec(),
+        ..InventorFiles::default()
+    };
+    files.note(
+        "source",
+        "this is the text that the file was made of, byte for byte".to_owned(),
+        "",
+        false,
+    );
+    beside(input, carried, &mut files);
+    files
+}
+
+/// Adds what the source refers to, as far as it is not there. Nothing is written over.
+fn beside(input: &Input<'_>, carried: &Carried, files: &mut InventorFiles) {
+    for (path, bytes) in carried.files.files.iter().skip(1) {
+        match (input.existing)(path) {
+            None => files.beside.push((path.clone(), Arc::clone(bytes))),
+            Some(found) if *found == **bytes => {}
+            Some(_) => files.note(
+                "other-file",
+                format!("`{path}` beside the output is not the one that the file was made with"),
+                "it was left as it is",
+                true,
+            ),
+        }
+    }
+}
