@@ -9,13 +9,16 @@ use std::path::{Path, PathBuf};
 use scenegraph::scene::Scene;
 use scenegraph::{Graph, LoadError, Loader, ResolveOptions, load, resolve};
 
-/// Files in memory.
+/// Files in memory beside `main.wrl`, which is never read again.
 pub struct Library(pub &'static [(&'static str, &'static str)]);
 
 impl Loader for Library {
     fn find(&self, beside: &Path, name: &str) -> Result<PathBuf, LoadError> {
         let path = beside.join(name);
-        let is_here = self.0.iter().any(|(known, _)| path == Path::new(known));
+        let names = self.0.iter().map(|(known, _)| *known);
+        let is_here = names
+            .chain(["main.wrl"])
+            .any(|known| path == Path::new(known));
         is_here.then_some(path).ok_or(LoadError::NotFound)
     }
 
