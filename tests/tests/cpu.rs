@@ -11,6 +11,7 @@ mod cpu {
     mod large;
     mod measures;
     mod models;
+    mod nurbs;
     mod precision;
     mod reference;
     mod robustness;

@@ -82,6 +82,11 @@ pub struct Args {
     #[arg(long, value_name = "DIR", value_parser = folder)]
     pub search: Vec<PathBuf>,
 
+    /// Largest distance between triangles and the NURBS they stand for, in units of the scene
+    /// [default: by the shape's size and Complexity]
+    #[arg(long, value_name = "TOLERANCE", value_parser = convert::command::model::chord)]
+    pub chord: Option<f64>,
+
     /// Leaves out Inventor's own values that glTF has no place for
     #[arg(long)]
     pub no_extras: bool,

@@ -30,6 +30,7 @@ pub struct Settings {
     pub round_trip: bool,
     /// Images go into an Inventor text.
     pub embed: bool,
+    resolve: ResolveOptions,
 }
 
 impl Settings {
@@ -52,6 +53,10 @@ impl Settings {
             search: args.search.clone(),
             round_trip: args.round_trip,
             embed: args.embed,
+            resolve: ResolveOptions {
+                chord: args.chord,
+                ..ResolveOptions::default()
+            },
         }
     }
 }
@@ -155,7 +160,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     let recorder = Recorder::new(&files, &folder);
     let keep = settings.round_trip;
     let loader: &dyn Loader = if keep { &recorder } else { &files };
-    let (resolved, text) = resolved(outcome, loader, keep)?;
+    let (resolved, text) = resolved(outcome, loader, &settings.resolve, keep)?;
     let scene = resolved.scene;
     atomic::make_folder_of(path)?;
     let report = match text {
@@ -187,6 +192,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
 fn resolved(
     outcome: &mut Outcome,
     loader: &dyn Loader,
+    options: &ResolveOptions,
     keep: bool,
 ) -> Result<(Resolved, Option<bytes::Bytes>), String> {
     let bytes = bytes::read(&outcome.input)?;
@@ -200,7 +206,7 @@ fn resolved(
     if model::is_unsupported(&outcome.diagnostics) {
         return Err(UNSUPPORTED.to_owned());
     }
-    let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
+    let mut resolved = scenegraph::resolve(&graph, options);
     outcome.diagnostics.append(&mut resolved.diagnostics);
     Ok((resolved, text))
 }

@@ -35,6 +35,7 @@ pub struct Input {
 pub fn read(
     path: &Path,
     search: &[PathBuf],
+    chord: Option<f64>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Input, String> {
     let start = Instant::now();
@@ -52,7 +53,11 @@ pub fn read(
         return Err("not shown: its format is not read".to_owned());
     }
     let start = Instant::now();
-    let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
+    let options = ResolveOptions {
+        chord,
+        ..ResolveOptions::default()
+    };
+    let mut resolved = scenegraph::resolve(&graph, &options);
     diagnostics.append(&mut resolved.diagnostics);
     Ok(Input {
         scene: resolved.scene,

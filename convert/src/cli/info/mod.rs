@@ -47,11 +47,11 @@ impl Info {
 }
 
 /// Reads an input and measures it.
-pub fn of(input: &Input, search: &[PathBuf]) -> Info {
+pub fn of(input: &Input, search: &[PathBuf], chord: Option<f64>) -> Info {
     let mut info = Info::new(&input.path);
     let content = match &input.fault {
         Some(fault) => Err(fault.clone()),
-        None => content(&mut info, search),
+        None => content(&mut info, search, chord),
     };
     match content {
         Ok(content) => info.content = Some(content),
@@ -60,7 +60,7 @@ pub fn of(input: &Input, search: &[PathBuf]) -> Info {
     info
 }
 
-fn content(info: &mut Info, search: &[PathBuf]) -> Result<Content, String> {
+fn content(info: &mut Info, search: &[PathBuf], chord: Option<f64>) -> Result<Content, String> {
     let bytes = bytes::read(&info.path)?;
     info.bytes = bytes.len() as u64;
     let files = model::file_loader(&info.path, search);
@@ -72,6 +72,7 @@ fn content(info: &mut Info, search: &[PathBuf]) -> Result<Content, String> {
     }
     let options = ResolveOptions {
         geometry: Geometry::Measure,
+        chord,
         ..ResolveOptions::default()
     };
     let mut resolved = scenegraph::resolve(&graph, &options);
