@@ -11,6 +11,7 @@
 //!
 //! Files are opened by the [`Loader`] only.
 
+mod font;
 pub mod graph;
 mod loader;
 mod lower;
@@ -21,6 +22,7 @@ pub mod scene;
 mod shape;
 mod write;
 
+pub use font::AddedFont;
 pub use graph::Graph;
 pub use loader::{FileLoader, LoadError, Loaded, Loader};
 pub use lower::{RegistryLayout, load, load_with};

@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use iv_parser::{Diagnostic, Header, SourcePos};
 
+use crate::font::AddedFont;
 use crate::registry::Class;
 
 pub use value::FieldValue;
@@ -75,6 +76,8 @@ pub struct Graph {
     pub root: NodeId,
     /// The files read; the first is the one asked for.
     pub files: Vec<SourceFile>,
+    /// Fonts that stand at hand besides the built-in ones.
+    pub fonts: Vec<AddedFont>,
     /// What was wrong, file by file, in order of place.
     pub diagnostics: Vec<Diagnostic>,
 }

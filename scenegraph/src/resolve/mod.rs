@@ -6,6 +6,7 @@
 
 mod builder;
 mod for_all;
+mod labels;
 mod lights;
 mod profiles;
 mod properties;
