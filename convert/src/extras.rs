@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use scenegraph::scene::{
     Camera, Environment, Faces, Fog, FogType, Light, LightId, LightKind, LightModel, Material,
-    Scene, Texture, TextureModel, TextureSource, ViewportMapping,
+    Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
 };
 
 use crate::json::Json;
@@ -169,6 +169,7 @@ pub(crate) fn node<'a>(
     json: &mut Json,
     class: Option<&str>,
     notes: impl IntoIterator<Item = &'a str>,
+    text: Option<&Text>,
     scope: Scope,
 ) {
     iv(json, |json| {
@@ -176,6 +177,12 @@ pub(crate) fn node<'a>(
             json.key("type").str(class);
         }
         json.array_unless_empty("notes", notes, |json, note| json.str(note));
+        if let Some(text) = text {
+            json.array_unless_empty("string", &text.strings, |json, line| json.str(line));
+            if text.faces_viewer {
+                json.key("facesViewer").bool(true);
+            }
+        }
         index(json, "lightSet", scope.light_set);
         index(json, "environment", scope.environment);
     });

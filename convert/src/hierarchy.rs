@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use geometry::transform::{Decomposition, Trs, decompose};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use scenegraph::scene::{NodeId, Placement, Scene};
+use scenegraph::scene::{NodeId, Placement, Scene, Text};
 
 use crate::extras::Scope;
 use crate::formats::Formats;
@@ -35,6 +35,7 @@ struct Draft<'s> {
     class: Option<&'s str>,
     notes: Vec<&'s str>,
     scope: Scope,
+    text: Option<&'s Text>,
     parent_from_local: DAffine3,
     content: Content,
     children: Vec<usize>,
@@ -57,7 +58,8 @@ impl<'s> Hierarchy<'s> {
     /// `meshes` are the glTF meshes of the instances, `formats` those of the scene's meshes.
     pub(crate) fn new(scene: &'s Scene, formats: &[Formats], meshes: &[u32]) -> Self {
         let mut builder = Builder::new(scene);
-        for (instance, &mesh) in scene.instances.iter().zip(meshes) {
+        let mut texts = scene.texts.iter().peekable();
+        for (i, (instance, &mesh)) in scene.instances.iter().zip(meshes).enumerate() {
             let origin = scene.meshes[instance.mesh.index()].origin;
             let placement = &instance.placement;
             let mut local = placement.parent_from_local * DAffine3::from_translation(origin);
@@ -69,6 +71,8 @@ impl<'s> Hierarchy<'s> {
                 light_set: instance.light_set.0,
                 environment: instance.environment.0,
             });
+            let text = texts.next_if(|text| text.instance as usize == i);
+            builder.set_text(text);
         }
         let frames = builder.group_frames();
         for (i, light) in scene.lights.iter().enumerate() {
@@ -164,7 +168,8 @@ impl<'s> Hierarchy<'s> {
             }
             json.array_unless_empty("children", first_child..queue.len(), Json::usize);
             if with_extras && inner_rotation.is_none() {
-                extras::node(json, node.class, node.notes.iter().copied(), node.scope);
+                let notes = node.notes.iter().copied();
+                extras::node(json, node.class, notes, node.text, node.scope);
             }
         });
     }
@@ -216,6 +221,7 @@ impl<'s> Builder<'s> {
             class: None,
             notes: Vec::new(),
             scope: Scope::default(),
+            text: None,
             parent_from_local,
             content,
             children: Vec::new(),
@@ -226,6 +232,13 @@ impl<'s> Builder<'s> {
     fn set_scope(&mut self, scope: Scope) {
         if let Some(draft) = self.drafts.last_mut() {
             draft.scope = scope;
+        }
+    }
+
+    /// What the item added last spells.
+    fn set_text(&mut self, text: Option<&'s Text>) {
+        if let Some(draft) = self.drafts.last_mut() {
+            draft.text = text;
         }
     }
 
@@ -284,6 +297,7 @@ impl<'s> Builder<'s> {
             class: extras::notable_class(&node.class),
             notes: node.notes.iter().map(|note| &**note).collect(),
             scope: Scope::default(),
+            text: None,
             parent_from_local: node.parent_from_local,
             content: Content::Nothing,
             children,

@@ -110,6 +110,7 @@ pub fn read_gltf(
         cameras: walk.cameras.into_iter().map(|(_, camera)| camera).collect(),
         light_sets,
         environments: walk.environments,
+        texts: walk.texts,
         files: vec![name.into()],
     };
     debug_assert_eq!(scene.check(), Vec::new());
