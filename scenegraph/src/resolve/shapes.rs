@@ -28,7 +28,9 @@ impl Walk<'_> {
         if !ShapeMaker::knows(class) {
             return false;
         }
-        self.shape_as(class, id, id, None);
+        if !(self.options.like_coin && is_screen_text(class)) {
+            self.shape_as(class, id, id, None);
+        }
         true
     }
 
