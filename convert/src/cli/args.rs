@@ -82,6 +82,11 @@ pub struct Args {
     #[arg(long, value_name = "DIR", value_parser = folder)]
     pub search: Vec<PathBuf>,
 
+    /// Sets text in this computer's fonts where it has those that a model names; the output then
+    /// depends on the computer
+    #[arg(long)]
+    pub system_fonts: bool,
+
     /// Leaves out Inventor's own values that glTF has no place for
     #[arg(long)]
     pub no_extras: bool,

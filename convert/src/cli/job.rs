@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use convert::command::messages::{file_of, image_left_out};
-use convert::command::{atomic, bytes, model};
+use convert::command::{atomic, bytes, fonts, model};
 use convert::{Container, Loss, Options, Recorder, Report};
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use scenegraph::{Loader, ResolveOptions, Resolved};
@@ -30,6 +30,8 @@ pub struct Settings {
     pub round_trip: bool,
     /// Images go into an Inventor text.
     pub embed: bool,
+    /// Text is set in fonts of the system.
+    system_fonts: bool,
 }
 
 impl Settings {
@@ -52,6 +54,7 @@ impl Settings {
             search: args.search.clone(),
             round_trip: args.round_trip,
             embed: args.embed,
+            system_fonts: args.system_fonts,
         }
     }
 }
@@ -155,7 +158,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     let recorder = Recorder::new(&files, &folder);
     let keep = settings.round_trip;
     let loader: &dyn Loader = if keep { &recorder } else { &files };
-    let (resolved, text) = resolved(outcome, loader, keep)?;
+    let (resolved, text) = resolved(outcome, loader, settings)?;
     let scene = resolved.scene;
     atomic::make_folder_of(path)?;
     let report = match text {
@@ -187,7 +190,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
 fn resolved(
     outcome: &mut Outcome,
     loader: &dyn Loader,
-    keep: bool,
+    settings: &Settings,
 ) -> Result<(Resolved, Option<bytes::Bytes>), String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
@@ -195,10 +198,13 @@ fn resolved(
         return Err(from_gltf::IS_GLTF.to_owned());
     }
     let mut graph = model::graph(&bytes, &outcome.input, loader);
-    let text = keep.then_some(bytes);
+    let text = settings.round_trip.then_some(bytes);
     outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
     if model::is_unsupported(&outcome.diagnostics) {
         return Err(UNSUPPORTED.to_owned());
+    }
+    if settings.system_fonts {
+        fonts::add_system_fonts(&mut graph);
     }
     let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
     outcome.diagnostics.append(&mut resolved.diagnostics);
