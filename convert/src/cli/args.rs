@@ -86,6 +86,10 @@ pub struct Args {
     /// [default: by the shape's size and Complexity]
     #[arg(long, value_name = "TOLERANCE", value_parser = convert::command::model::chord)]
     pub chord: Option<f64>,
+    /// Sets text in this computer's fonts where it has those that a model names; the output then
+    /// depends on the computer
+    #[arg(long)]
+    pub system_fonts: bool,
 
     /// Leaves out Inventor's own values that glTF has no place for
     #[arg(long)]

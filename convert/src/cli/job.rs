@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use convert::command::messages::{file_of, image_left_out};
-use convert::command::{atomic, bytes, model};
+use convert::command::{atomic, bytes, fonts, model};
 use convert::{Container, Loss, Options, Recorder, Report};
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use scenegraph::{Loader, ResolveOptions, Resolved};
@@ -31,6 +31,8 @@ pub struct Settings {
     /// Images go into an Inventor text.
     pub embed: bool,
     resolve: ResolveOptions,
+    /// Text is set in fonts of the system.
+    system_fonts: bool,
 }
 
 impl Settings {
@@ -57,6 +59,7 @@ impl Settings {
                 chord: args.chord,
                 ..ResolveOptions::default()
             },
+            system_fonts: args.system_fonts,
         }
     }
 }
@@ -160,7 +163,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     let recorder = Recorder::new(&files, &folder);
     let keep = settings.round_trip;
     let loader: &dyn Loader = if keep { &recorder } else { &files };
-    let (resolved, text) = resolved(outcome, loader, &settings.resolve, keep)?;
+    let (resolved, text) = resolved(outcome, loader, settings)?;
     let scene = resolved.scene;
     atomic::make_folder_of(path)?;
     let report = match text {
@@ -192,8 +195,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
 fn resolved(
     outcome: &mut Outcome,
     loader: &dyn Loader,
-    options: &ResolveOptions,
-    keep: bool,
+    settings: &Settings,
 ) -> Result<(Resolved, Option<bytes::Bytes>), String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
@@ -201,12 +203,15 @@ fn resolved(
         return Err(from_gltf::IS_GLTF.to_owned());
     }
     let mut graph = model::graph(&bytes, &outcome.input, loader);
-    let text = keep.then_some(bytes);
+    let text = settings.round_trip.then_some(bytes);
     outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
     if model::is_unsupported(&outcome.diagnostics) {
         return Err(UNSUPPORTED.to_owned());
     }
-    let mut resolved = scenegraph::resolve(&graph, options);
+    if settings.system_fonts {
+        fonts::add_system_fonts(&mut graph);
+    }
+    let mut resolved = scenegraph::resolve(&graph, &settings.resolve);
     outcome.diagnostics.append(&mut resolved.diagnostics);
     Ok((resolved, text))
 }

@@ -88,6 +88,15 @@ impl Graph {
         &self.nodes[id.0 as usize]
     }
 
+    /// The names of fonts that `Font` and `FontStyle` nodes give, in their order.
+    pub fn font_names(&self) -> impl Iterator<Item = &Arc<str>> {
+        let fonts = (self.nodes.iter())
+            .filter(|node| matches!(node.class(), Some(Class::Font | Class::FontStyle)));
+        fonts
+            .filter(|node| node.entry("name").is_some())
+            .filter_map(|node| node.text("name"))
+    }
+
     /// All nodes, in the order in which they were read.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes

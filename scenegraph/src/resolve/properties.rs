@@ -29,12 +29,8 @@ impl Walk<'_> {
                 }
             }
             Class::LinearProfile | Class::NurbsProfile => {
-                let starts = node.word("linkage") == "START_FIRST";
-                if starts {
+                if node.word("linkage") == "START_FIRST" {
                     state.profiles = ProfileList::default();
-                }
-                if starts || state.profile.is_none() {
-                    state.profile = Some(id);
                 }
                 state.profiles = self.profiles.add(state.profiles, id);
             }

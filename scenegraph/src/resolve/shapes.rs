@@ -11,8 +11,8 @@ use crate::scene::{
     TextureSource, Wrap,
 };
 use crate::shape::{
-    Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed, is_nurbs, is_screen_text, is_text,
-    is_trimmed,
+    Attributes, Job, Made, MadeFaces, ShapeMaker, has_profiles, is_closed, is_nurbs,
+    is_screen_text, is_text,
 };
 
 use super::Geometry;
@@ -28,7 +28,9 @@ impl Walk<'_> {
         if !ShapeMaker::knows(class) {
             return false;
         }
-        self.shape_as(class, id, id, None);
+        if !(self.options.like_coin && is_screen_text(class)) {
+            self.shape_as(class, id, id, None);
+        }
         true
     }
 
@@ -119,16 +121,16 @@ impl Walk<'_> {
         }
     }
 
-    /// The profiles that trim a shape; `None` if there are too many.
+    /// The profiles that shape a shape; `None` if there are too many.
     fn profiles_of(&mut self, class: Class, id: NodeId) -> Option<Vec<NodeId>> {
-        if !is_trimmed(class) {
+        if !has_profiles(class) {
             return Some(Vec::new());
         }
         let nodes = self.profiles.nodes(self.state.profiles);
         if nodes.is_none() {
             self.remarks.warn(
                 "bad-nurbs",
-                &format!("{class:?} is trimmed by too many profiles"),
+                &format!("{class:?} has too many profiles"),
                 "it was left out",
                 self.graph.node(id).pos,
             );

@@ -162,8 +162,6 @@ pub struct State {
     /// The `Font` or `FontStyle` that names the font.
     pub font: Option<NodeId>,
     pub font_size: f64,
-    /// The first profile of the current set, which is the one that shapes text.
-    pub profile: Option<NodeId>,
     /// The `Texture2` in force.
     pub texture: Option<NodeId>,
     /// Applied to texture coordinates (s, t, 1).
@@ -217,7 +215,6 @@ impl State {
             font: None,
             // SGI's; Coin's is 12.
             font_size: 10.0,
-            profile: None,
             texture: None,
             texture_transform: DMat3::IDENTITY,
             lights: LightList::default(),

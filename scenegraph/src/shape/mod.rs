@@ -35,7 +35,7 @@ use crate::graph::Graph;
 use assemble::Assembler;
 pub(crate) use attributes::{Attributes, has_texcoords};
 pub(crate) use made::{Complaint, MadeFaces, elevation_grid, extrusion};
-pub(crate) use nurbs::{is_nurbs, is_trimmed};
+pub(crate) use nurbs::is_nurbs;
 pub(crate) use primitives::is_closed;
 pub(crate) use text::{is_screen_text, is_text};
 
@@ -52,13 +52,18 @@ struct MeshKey {
     ordering: crate::resolve::Ordering,
     crease_angle: u64,
     complexity: u64,
-    /// Of a surface that profiles trim: them, and their points.
+    /// Of what profiles shape: them, and their points.
     profiles: Option<(ProfileList, Option<NodeId>)>,
     chord: Option<u64>,
     style: Style,
     lit: bool,
-    /// Font, size and profile, for text.
+    /// Font and size, for text.
     text: Option<text::TextKey>,
+}
+
+/// Whether profiles have a say in a shape of this class.
+pub(crate) fn has_profiles(class: Class) -> bool {
+    nurbs::is_trimmed(class) || class == Class::Text3
 }
 
 /// A mesh that was made, and what its material must know.
@@ -99,7 +104,7 @@ pub struct Job<'a> {
     pub fans: bool,
     /// Of NURBS: the chord asked for, in the shape's own frame.
     pub chord: Option<f64>,
-    /// Of NURBS surfaces: the profiles that trim it.
+    /// Of NURBS surfaces the profiles that trim it, of text those that shape it.
     pub profiles: Vec<NodeId>,
     /// The faces of a shape that is given by rule.
     pub made: Option<&'a MadeFaces>,
@@ -126,7 +131,8 @@ impl ShapeMaker {
             ordering: state.hints.ordering,
             crease_angle: state.hints.crease_angle_rad.to_bits(),
             complexity: state.complexity.to_bits(),
-            profiles: is_trimmed(job.class).then_some((state.profiles, state.profile_coordinates)),
+            profiles: has_profiles(job.class)
+                .then_some((state.profiles, state.profile_coordinates)),
             chord: job.chord.map(f64::to_bits),
             style: job.style,
             lit: job.lit,
@@ -234,6 +240,7 @@ impl ShapeMaker {
     /// Whether shapes of this class are made here.
     pub fn knows(class: Class) -> bool {
         is_nurbs(class)
+            || is_text(class)
             || matches!(
                 class,
                 Class::Cube

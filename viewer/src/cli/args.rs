@@ -125,6 +125,11 @@ pub struct Args {
     #[arg(long, value_name = "DIR", value_parser = folder)]
     pub search: Vec<PathBuf>,
 
+    /// Sets text in this computer's fonts where it has those that the model names; the picture
+    /// then depends on the computer
+    #[arg(long)]
+    pub system_fonts: bool,
+
     /// Prints errors only
     #[arg(short, long)]
     pub quiet: bool,

@@ -46,8 +46,6 @@ pub fn is_screen_text(class: Class) -> bool {
 pub struct TextKey {
     font: Option<NodeId>,
     size: u64,
-    profile_points: Option<NodeId>,
-    profile: Option<NodeId>,
 }
 
 impl TextKey {
@@ -56,8 +54,6 @@ impl TextKey {
         Self {
             font: state.font,
             size: state.font_size.to_bits(),
-            profile_points: state.profile_coordinates,
-            profile: state.profile,
         }
     }
 }
@@ -149,7 +145,11 @@ fn text_of<'g>(job: &Job<'g>, node: &'g Node, remarks: &mut Remarks) -> Text<'g>
             sides: part("SIDES"),
             back: part("BACK"),
             profile: if is_solid {
-                profile::of(job, remarks)
+                profile::of(
+                    job,
+                    tolerance(job.state.complexity) * job.state.font_size.max(f64::MIN_POSITIVE),
+                    remarks,
+                )
             } else {
                 Profile::flat()
             },

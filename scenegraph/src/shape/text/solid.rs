@@ -18,6 +18,7 @@ use super::super::texcoords::{function, transformed};
 use super::Solid;
 use super::glyphs::Glyph;
 use super::layout::Placed;
+use super::profile::ProfilePoint;
 
 /// Border directions this close are one: fonts store points in whole units, so smooth curves meet
 /// at an angle of about a unit over the length of a control handle.
@@ -101,13 +102,13 @@ impl Maker<'_> {
             return;
         };
         if self.solid.front {
-            self.face(letter, first, FRONT);
+            self.face(letter, first.p, FRONT);
         }
         if self.solid.sides {
             self.sides(letter);
         }
         if self.solid.back {
-            self.face(letter, last, BACK);
+            self.face(letter, last.p, BACK);
         }
     }
 
@@ -154,14 +155,15 @@ impl Maker<'_> {
     }
 
     fn sides(&mut self, letter: &Letter<'_>) {
-        let points = self.solid.profile.points.clone();
-        let total: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
-        let mut behind = total;
-        for k in 0..points.len().saturating_sub(1) {
-            let length = points[k].distance(points[k + 1]);
+        let solid = self.solid;
+        let points = &solid.profile.points;
+        let length = |pair: &[ProfilePoint]| pair[0].p.distance(pair[1].p);
+        let mut behind: f64 = points.windows(2).map(length).sum();
+        for (k, pair) in points.windows(2).enumerate() {
+            let length = length(pair);
             let band = Band {
-                rows: [points[k], points[k + 1]],
-                directions: self.band_directions(&points, k),
+                rows: [pair[0].p, pair[1].p],
+                directions: self.band_directions(points, k),
                 s: [behind, behind - length],
             };
             for range in letter.area.loop_ranges() {
@@ -171,19 +173,21 @@ impl Maker<'_> {
         }
     }
 
-    /// The directions of the profile at both ends of piece `k`, shared with the next piece where it is
-    /// smooth.
-    fn band_directions(&self, points: &[DVec2], k: usize) -> [DVec2; 2] {
-        let direction = |k: usize| (points[k + 1] - points[k]).normalize_or(DVec2::X);
+    /// The directions of the profile at both ends of piece `k`, shared with the next piece where it
+    /// is smooth.
+    fn band_directions(&self, points: &[ProfilePoint], k: usize) -> [DVec2; 2] {
+        let direction = |k: usize| (points[k + 1].p - points[k].p).normalize_or(DVec2::X);
         let own = direction(k);
         let crease = crease_cosine(self.solid.profile.crease_angle_rad);
-        let shared = |other: Option<DVec2>| match other {
-            Some(other) if own.dot(other) > crease => (own + other).normalize_or(own),
+        let shared = |other: Option<DVec2>, joint: &ProfilePoint| match other {
+            Some(other) if joint.smooth || own.dot(other) > crease => {
+                (own + other).normalize_or(own)
+            }
             _ => own,
         };
         let before = k.checked_sub(1).map(direction);
         let after = (k + 2 < points.len()).then(|| direction(k + 1));
-        [shared(before), shared(after)]
+        [shared(before, &points[k]), shared(after, &points[k + 1])]
     }
 
     fn band(&mut self, letter: &Letter<'_>, range: std::ops::Range<usize>, band: &Band) {
