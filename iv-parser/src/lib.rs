@@ -12,6 +12,7 @@
 //! ```
 
 mod diagnostic;
+mod edit;
 mod header;
 mod lex;
 mod limits;
@@ -24,6 +25,7 @@ mod text;
 mod tree;
 
 pub use diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
+pub use edit::TextEdits;
 pub use header::{Dialect, Encoding, Header};
 pub use limits::Limits;
 pub use list::{List, Part};

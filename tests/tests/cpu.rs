@@ -5,6 +5,7 @@
 mod cpu {
     mod corpus;
     mod determinism;
+    mod edited;
     mod glb;
     mod gltf_in;
     mod includes;
@@ -12,6 +13,7 @@ mod cpu {
     mod measures;
     mod models;
     mod precision;
+    mod random_models;
     mod reference;
     mod robustness;
     mod roundtrip;

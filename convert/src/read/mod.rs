@@ -42,9 +42,7 @@ use texture::Textures;
 pub use budget::ReadLimits;
 pub(crate) use buffers::base64;
 pub use error::ReadError;
-pub(crate) use objects::{
-    NodeObject, Objects, PrimitiveObject, carried_source, images_of,
-};
+pub(crate) use objects::{NodeObject, Objects, PrimitiveObject, carried_source, images_of};
 
 /// A glTF file as a scene.
 #[derive(Clone, Debug, Default)]
