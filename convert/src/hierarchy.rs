@@ -29,8 +29,27 @@ enum Content {
     Camera(u32),
 }
 
+/// What of the scene a glTF node shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Item {
+    Instance(usize),
+    Light(usize),
+    Camera(usize),
+}
+
+/// What of the scene a glTF node was made of: groups that became one, and what they hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Origin {
+    /// The outermost and the innermost group.
+    pub(crate) groups: Option<(NodeId, NodeId)>,
+    pub(crate) item: Option<Item>,
+    /// A node whose transform glTF needs two nodes for.
+    pub(crate) is_split: bool,
+}
+
 /// A node being put together.
 struct Draft<'s> {
+    origin: Origin,
     name: Option<&'s str>,
     class: Option<&'s str>,
     notes: Vec<&'s str>,
@@ -66,7 +85,8 @@ impl<'s> Hierarchy<'s> {
             if let Some(step) = formats[instance.mesh.index()].positions.step() {
                 local.matrix3 *= f64::from(step);
             }
-            builder.add_item(placement.node, &placement.name, local, Content::Mesh(mesh));
+            let item = (Item::Instance(i), Content::Mesh(mesh));
+            builder.add_item(placement.node, &placement.name, local, item);
             builder.set_scope(Scope {
                 light_set: instance.light_set.0,
                 environment: instance.environment.0,
@@ -79,7 +99,7 @@ impl<'s> Hierarchy<'s> {
             let keeps = |linear: &DMat3| uniform_scale(linear).is_some();
             builder.add_view(
                 &light.placement,
-                Content::Light(i as u32),
+                (Item::Light(i), Content::Light(i as u32)),
                 |frame| light::frame(&light.kind, frame),
                 |node| keeps(&frames[node.index()].matrix3),
             );
@@ -87,7 +107,7 @@ impl<'s> Hierarchy<'s> {
         for (i, camera) in scene.cameras.iter().enumerate() {
             builder.add_view(
                 &camera.placement,
-                Content::Camera(i as u32),
+                (Item::Camera(i), Content::Camera(i as u32)),
                 |frame| camera::frame(camera, frame),
                 |node| is_rotation(&frames[node.index()].matrix3),
             );
@@ -132,6 +152,32 @@ impl<'s> Hierarchy<'s> {
             }
         });
         queue.len()
+    }
+
+    /// What the nodes that [`Self::write`] writes were made of, in the same order.
+    pub(crate) fn origins(&self) -> Vec<Origin> {
+        let mut queue: Vec<Part> = self.roots.iter().copied().map(Part::Whole).collect();
+        let mut origins = Vec::new();
+        while let Some(&part) = queue.get(origins.len()) {
+            let (draft, is_inner) = match part {
+                Part::Whole(draft) => (draft, false),
+                Part::Inner(draft, _) => (draft, true),
+            };
+            let node = &self.drafts[draft];
+            let splits_to = match decompose(&node.parent_from_local) {
+                Decomposition::Sheared { inner, .. } if !is_inner => Some(inner),
+                _ => None,
+            };
+            match splits_to {
+                Some(inner) => queue.push(Part::Inner(draft, inner)),
+                None => queue.extend(node.children.iter().copied().map(Part::Whole)),
+            }
+            origins.push(Origin {
+                is_split: is_inner || splits_to.is_some(),
+                ..node.origin
+            });
+        }
+        origins
     }
 
     fn write_node(
@@ -212,11 +258,15 @@ impl<'s> Builder<'s> {
         group: Option<NodeId>,
         name: &'s Option<Arc<str>>,
         parent_from_local: DAffine3,
-        content: Content,
+        (shown, content): (Item, Content),
     ) {
         let item = Member::Item(self.drafts.len());
         self.members_of(group).push(item);
         self.drafts.push(Draft {
+            origin: Origin {
+                item: Some(shown),
+                ..Origin::default()
+            },
             name: name.as_deref(),
             class: None,
             notes: Vec::new(),
@@ -246,7 +296,7 @@ impl<'s> Builder<'s> {
     fn add_view(
         &mut self,
         placement: &'s Placement,
-        content: Content,
+        content: (Item, Content),
         frame_in: impl Fn(&DAffine3) -> DAffine3,
         keeps: impl Fn(NodeId) -> bool,
     ) {
@@ -292,7 +342,12 @@ impl<'s> Builder<'s> {
     /// The draft of a group: its only child, its own, or none when it says and holds nothing.
     fn put_together(&mut self, group: usize, children: Vec<usize>) -> Option<usize> {
         let node = &self.scene.nodes[group];
+        let id = NodeId(group as u32);
         let draft = Draft {
+            origin: Origin {
+                groups: Some((id, id)),
+                ..Origin::default()
+            },
             name: node.name.as_deref(),
             class: extras::notable_class(&node.class),
             notes: node.notes.iter().map(|note| &**note).collect(),
@@ -345,6 +400,9 @@ impl Draft<'_> {
 impl<'s> Draft<'s> {
     /// Becomes one with the group around it.
     fn take_in(&mut self, group: Draft<'s>) {
+        let inside = self.origin.groups.or(group.origin.groups);
+        let outside = group.origin.groups.or(self.origin.groups);
+        self.origin.groups = outside.zip(inside).map(|((o, _), (_, i))| (o, i));
         self.parent_from_local = group.parent_from_local * self.parent_from_local;
         self.name = group.name.or(self.name);
         self.class = group.class.or(self.class);

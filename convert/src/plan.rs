@@ -7,7 +7,7 @@ use scenegraph::scene::{Instance, MaterialId, MeshId, Scene, Topology};
 
 use crate::bounds::Bounds;
 use crate::formats::{Formats, Normals, Positions};
-use crate::hierarchy::Hierarchy;
+use crate::hierarchy::{Hierarchy, Origin};
 use crate::json::Json;
 use crate::layout::{Layout, Needs};
 use crate::material::{GltfMaterial, Surroundings, VertexColors};
@@ -100,6 +100,15 @@ impl<'s> Plan<'s> {
             layout,
             report,
         })
+    }
+
+    /// What of the scene the glTF objects were made of.
+    pub(crate) fn origins(&self) -> Origins {
+        Origins {
+            nodes: self.hierarchy.origins(),
+            materials: self.materials.iter().map(|m| m.source).collect(),
+            meshes: self.meshes.iter().map(|m| m.source).collect(),
+        }
     }
 
     pub(crate) fn write_buffer(&self, buffer: usize, out: &mut dyn Write) -> io::Result<()> {
@@ -207,6 +216,14 @@ impl<'s> Plan<'s> {
             .filter(|(_, used)| *used)
             .map(|(name, _)| name)
     }
+}
+
+/// For each glTF object what of the scene it was made of.
+#[derive(Debug)]
+pub(crate) struct Origins {
+    pub(crate) nodes: Vec<Origin>,
+    pub(crate) materials: Vec<MaterialId>,
+    pub(crate) meshes: Vec<MeshId>,
 }
 
 /// Meshes and materials being gathered from the instances, in their order.

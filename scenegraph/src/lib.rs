@@ -28,4 +28,4 @@ pub use loader::{FileLoader, LoadError, Loaded, Loader};
 pub use lower::{RegistryLayout, load, load_with};
 pub use resolve::{Geometry, ResolveLimits, ResolveOptions, Resolved, resolve};
 pub use shape::Measure;
-pub use write::{ImageForm, SceneText, write_scene, write_shape};
+pub use write::{ImageForm, SceneText, legal_name, write_scene, write_shape};

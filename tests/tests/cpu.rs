@@ -5,6 +5,7 @@
 mod cpu {
     mod corpus;
     mod determinism;
+    mod edited;
     mod glb;
     mod gltf_in;
     mod includes;
@@ -13,6 +14,7 @@ mod cpu {
     mod models;
     mod nurbs;
     mod precision;
+    mod random_models;
     mod reference;
     mod robustness;
     mod roundtrip;
