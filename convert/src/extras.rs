@@ -90,9 +90,14 @@ pub(crate) fn texture(json: &mut Json, texture: &Texture) {
     });
 }
 
-/// Says that values which are left out equal Inventor's defaults.
-pub(crate) fn asset(json: &mut Json) {
-    iv(json, |json| json.key("version").u64(VERSION));
+/// Says that values which are left out equal Inventor's defaults, and whether the model was turned.
+pub(crate) fn asset(json: &mut Json, turned_upright: bool) {
+    iv(json, |json| {
+        json.key("version").u64(VERSION);
+        if turned_upright {
+            json.key("up").str("Y");
+        }
+    });
 }
 
 pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {

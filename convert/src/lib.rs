@@ -19,6 +19,7 @@
 //! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
 //! only.
 
+mod base64;
 mod binary;
 mod blocks;
 mod bounds;
@@ -33,6 +34,7 @@ mod file;
 mod formats;
 mod frame;
 mod hierarchy;
+mod html;
 mod image;
 mod json;
 mod layout;
@@ -60,7 +62,7 @@ use scenegraph::scene::Scene;
 pub use error::Error;
 pub use file::write_file;
 pub use loss::{Effect, Loss, LossKind, losses_markdown};
-pub use options::{Container, Options, Quantize, Weld};
+pub use options::{Container, Lights, Materials, Options, Quantize, TextureFormat, Up, Weld};
 pub use pixels::Pixels;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};

@@ -15,7 +15,7 @@ use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_textur
 use crate::prepare::Prepared;
 use crate::remarks::Remarks;
 use crate::texture::{TextureLoader, Textures};
-use crate::{Container, Error, Options, Report, binary, camera, extras, light};
+use crate::{Container, Error, Materials, Options, Report, Up, binary, camera, extras, light};
 
 /// A conversion with everything decided and measured: which materials, meshes, nodes and images
 /// there are, and where each number goes.
@@ -45,7 +45,7 @@ impl<'s> Plan<'s> {
         loader: &'s dyn TextureLoader,
     ) -> Result<Self, Error> {
         let scene = &*prepared.scene;
-        let mut gathering = Gathering::new(scene, &prepared.formats, loader);
+        let mut gathering = Gathering::new(scene, &prepared.formats, options, loader);
         let meshes_of_instances: Vec<u32> = scene
             .instances
             .iter()
@@ -62,7 +62,7 @@ impl<'s> Plan<'s> {
         } = gathering;
 
         let max_buffer_bytes = match options.container {
-            Container::Glb => u64::MAX,
+            Container::Glb | Container::Html | Container::GltfEmbedded => u64::MAX,
             Container::GltfBin => options.max_bin_bytes,
         };
         let image_lens = (0..textures.image_count()).map(|i| textures.image_bytes(i).len() as u64);
@@ -120,7 +120,7 @@ impl<'s> Plan<'s> {
                 json.key("generator")
                     .str(concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")));
                 if with_extras {
-                    extras::asset(json);
+                    extras::asset(json, self.options.up == Up::Z);
                 }
             });
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
@@ -156,7 +156,14 @@ impl<'s> Plan<'s> {
                 json.array_unless_empty("lights", &self.scene.lights, |json, light| {
                     let environment = &self.scene.environments[light.environment.index()];
                     let bounds = self.bounds.as_ref();
-                    light::write(json, light, environment, bounds, self.options.extras);
+                    light::write(
+                        json,
+                        light,
+                        environment,
+                        bounds,
+                        self.options.lights,
+                        self.options.extras,
+                    );
                 });
             });
         });
@@ -181,6 +188,7 @@ impl<'s> Plan<'s> {
     fn required(&self) -> impl Iterator<Item = &'static str> {
         let required = [
             ("EXT_meshopt_compression", self.is_compressed()),
+            ("EXT_texture_webp", self.textures.has_webp()),
             ("KHR_mesh_quantization", self.is_quantized()),
         ];
         required
@@ -193,12 +201,13 @@ impl<'s> Plan<'s> {
         let any = |test: fn(&GltfMaterial) -> bool| self.materials.iter().any(test);
         let used = [
             ("EXT_meshopt_compression", self.is_compressed()),
+            ("EXT_texture_webp", self.textures.has_webp()),
             ("KHR_lights_punctual", !self.scene.lights.is_empty()),
             (
                 "KHR_materials_ior",
                 any(|m| !m.unlit && m.specular.is_some()),
             ),
-            ("KHR_materials_specular", any(|m| !m.unlit)),
+            ("KHR_materials_specular", any(|m| !m.unlit && !m.is_simple)),
             ("KHR_materials_unlit", any(|m| m.unlit)),
             ("KHR_mesh_quantization", self.is_quantized()),
         ];
@@ -212,6 +221,7 @@ impl<'s> Plan<'s> {
 struct Gathering<'s> {
     scene: &'s Scene,
     formats: &'s [Formats],
+    look: Materials,
     textures: Textures<'s>,
     materials: Vec<GltfMaterial>,
     material_of: FxHashMap<(MaterialId, Surroundings), u32>,
@@ -223,11 +233,17 @@ struct Gathering<'s> {
 }
 
 impl<'s> Gathering<'s> {
-    fn new(scene: &'s Scene, formats: &'s [Formats], loader: &'s dyn TextureLoader) -> Self {
+    fn new(
+        scene: &'s Scene,
+        formats: &'s [Formats],
+        options: &Options,
+        loader: &'s dyn TextureLoader,
+    ) -> Self {
         Self {
             scene,
             formats,
-            textures: Textures::new(scene, loader),
+            look: options.materials,
+            textures: Textures::new(scene, loader, options.textures),
             materials: Vec::new(),
             material_of: FxHashMap::default(),
             meshes: Vec::new(),
@@ -293,8 +309,13 @@ impl<'s> Gathering<'s> {
         };
         let texture = texture.and_then(|id| self.textures.show(id, diffuse_srgb));
         let index = self.materials.len() as u32;
-        self.materials
-            .push(GltfMaterial::new(material, source, surroundings, texture));
+        self.materials.push(GltfMaterial::new(
+            material,
+            source,
+            surroundings,
+            texture,
+            self.look,
+        ));
         self.material_of.insert((material, surroundings), index);
         index
     }

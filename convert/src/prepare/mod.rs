@@ -1,10 +1,11 @@
-//! The scene as the options want it stored, before anything is planned: vertices shared, cut apart
-//! or put in order, positions on a grid.
+//! The scene as the options want it stored, before anything is planned: turned upright and measured
+//! in metres, vertices shared, cut apart or put in order, positions on a grid.
 //!
 //! Without such options the scene is taken as it is, and nothing is copied.
 
 mod grid;
 mod vertices;
+mod world;
 
 use std::borrow::Cow;
 
@@ -12,7 +13,7 @@ use scenegraph::scene::{Mesh, Scene};
 
 use crate::formats::{Colors, Formats, Normals, Texcoords};
 use crate::parallel;
-use crate::{Error, Options, Quantize, Weld, sound};
+use crate::{Error, Options, Quantize, Up, Weld, sound};
 
 /// A scene ready to be planned.
 pub(crate) struct Prepared<'s> {
@@ -27,15 +28,17 @@ impl<'s> Prepared<'s> {
     /// [`Error::Scene`] if the scene breaks one of its guarantees.
     pub(crate) fn new(scene: &'s Scene, options: &Options) -> Result<Self, Error> {
         sound::check(scene)?;
-        if !touches_meshes(options) {
+        if options.up == Up::Y && options.metres_per_unit == 1.0 && !touches_meshes(options) {
             return Ok(Self {
                 formats: vec![Formats::default(); scene.meshes.len()],
                 scene: Cow::Borrowed(scene),
             });
         }
         check_indices(scene)?;
+        let mut turned = with_meshes(scene, Vec::new());
+        world::turn(&mut turned, options);
         let frames = match options.quantize {
-            Some(_) => grid::frames(scene),
+            Some(_) => grid::frames(&turned, scene.meshes.len()),
             None => vec![None; scene.meshes.len()],
         };
         let made = parallel::map(scene.meshes.len(), options.threads, |i| {
@@ -43,9 +46,10 @@ impl<'s> Prepared<'s> {
             let formats = arrange(&mut mesh, frames[i].as_ref(), options);
             (mesh, formats)
         });
-        let (meshes, formats) = made.into_iter().unzip();
+        let formats;
+        (turned.meshes, formats) = made.into_iter().unzip();
         Ok(Self {
-            scene: Cow::Owned(with_meshes(scene, meshes)),
+            scene: Cow::Owned(turned),
             formats,
         })
     }
