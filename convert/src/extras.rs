@@ -154,7 +154,7 @@ pub(crate) fn notable_class(class: &str) -> Option<&str> {
 }
 
 /// What surrounds a shape, by index in the lists of the scene's extras.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Scope {
     pub(crate) light_set: u32,
     pub(crate) environment: u32,

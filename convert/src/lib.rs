@@ -36,6 +36,7 @@ mod frame;
 mod hierarchy;
 mod html;
 mod image;
+mod instancing;
 mod json;
 mod layout;
 mod light;

@@ -44,6 +44,8 @@ pub struct Options {
     /// Whether the numbers of meshes are compressed (`EXT_meshopt_compression`). Includes
     /// `optimize`, in an order that suits the compression.
     pub compress: bool,
+    /// Whether copies of a mesh below one node become one node (`EXT_mesh_gpu_instancing`).
+    pub instancing: bool,
     /// Most threads that work on meshes. The output does not depend on it.
     pub threads: usize,
 }
@@ -64,6 +66,7 @@ impl Default for Options {
             optimize: false,
             quantize: None,
             compress: false,
+            instancing: false,
             threads: 1,
         }
     }

@@ -2,12 +2,14 @@
 
 use std::io::{self, Write};
 
+use glam::DVec3;
 use rustc_hash::FxHashMap;
 use scenegraph::scene::{Instance, MaterialId, MeshId, Scene, Topology};
 
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, corners_between};
 use crate::formats::{Formats, Normals, Positions};
 use crate::hierarchy::Hierarchy;
+use crate::instancing::TOLERANCE_SHARE;
 use crate::json::Json;
 use crate::layout::{Layout, Needs};
 use crate::material::{GltfMaterial, Surroundings, VertexColors};
@@ -29,6 +31,8 @@ pub(crate) struct Plan<'s> {
     needs: Vec<Option<Needs>>,
     pub(crate) layout: Layout,
     hierarchy: Hierarchy<'s>,
+    /// Bytes of the views before the images.
+    copies: Vec<Vec<u8>>,
     bounds: Option<Bounds>,
     pub(crate) report: Report,
 }
@@ -66,12 +70,21 @@ impl<'s> Plan<'s> {
             Container::GltfBin => options.max_bin_bytes,
         };
         let image_lens = (0..textures.image_count()).map(|i| textures.image_bytes(i).len() as u64);
-        let layout = if options.compress {
+        let mut hierarchy = Hierarchy::new(scene, &prepared.formats, &meshes_of_instances);
+        if options.instancing {
+            let tolerance = options.quantize.map(|q| q.tolerance * TOLERANCE_SHARE);
+            hierarchy.gather_copies(&boxes(&meshes, &needs), tolerance);
+        }
+        let copies = hierarchy.copies.views();
+        let copy_lens = copies.iter().map(|view| view.len() as u64);
+        let other_lens = copy_lens.chain(image_lens);
+        let mut layout = if options.compress {
             let threads = options.threads;
-            Layout::compressed(scene, &needs, image_lens, max_buffer_bytes, threads)?
+            Layout::compressed(scene, &needs, other_lens, max_buffer_bytes, threads)?
         } else {
-            Layout::new(scene, &needs, image_lens, max_buffer_bytes)?
+            Layout::new(scene, &needs, other_lens, max_buffer_bytes)?
         };
+        layout.first_image_view += copies.len();
         let mut report = Report {
             losses: remarks.into_losses(),
             warnings: textures.take_warnings(),
@@ -90,7 +103,8 @@ impl<'s> Plan<'s> {
             .sum();
         Ok(Self {
             bounds: Bounds::of(scene, &needs),
-            hierarchy: Hierarchy::new(scene, &prepared.formats, &meshes_of_instances),
+            hierarchy,
+            copies,
             scene,
             options: options.clone(),
             textures,
@@ -104,7 +118,8 @@ impl<'s> Plan<'s> {
 
     pub(crate) fn write_buffer(&self, buffer: usize, out: &mut dyn Write) -> io::Result<()> {
         let (layout, needs) = (&self.layout, &self.needs);
-        binary::write_buffer(buffer, layout, self.scene, needs, &self.textures, out)
+        let (copies, textures) = (&self.copies, &self.textures);
+        binary::write_buffer(buffer, layout, self.scene, needs, copies, textures, out)
     }
 
     /// The glTF text, and the number of its nodes; `uri_of` names the files of the buffers.
@@ -126,7 +141,10 @@ impl<'s> Plan<'s> {
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
             json.array_unless_empty("extensionsRequired", self.required(), Json::str);
             self.write_lights(json);
-            nodes = self.hierarchy.write(json, self.scene, with_extras);
+            let first_copy = self.layout.accessors.len();
+            nodes = self
+                .hierarchy
+                .write(json, self.scene, first_copy, with_extras);
             json.array_unless_empty("cameras", &self.scene.cameras, |json, camera| {
                 camera::write(json, camera, self.bounds.as_ref(), with_extras);
             });
@@ -142,7 +160,9 @@ impl<'s> Plan<'s> {
             let first_image_view = self.layout.first_image_view;
             self.textures
                 .write(json, with_extras, |image| (first_image_view + image) as u32);
-            self.layout.write(json, self.scene, &self.needs, uri_of);
+            let copies = &self.hierarchy.copies;
+            self.layout
+                .write(json, self.scene, &self.needs, copies, uri_of);
         });
         (json.into_bytes(), nodes)
     }
@@ -187,6 +207,7 @@ impl<'s> Plan<'s> {
     /// The extensions without which the file cannot be shown.
     fn required(&self) -> impl Iterator<Item = &'static str> {
         let required = [
+            ("EXT_mesh_gpu_instancing", !self.hierarchy.copies.is_empty()),
             ("EXT_meshopt_compression", self.is_compressed()),
             ("EXT_texture_webp", self.textures.has_webp()),
             ("KHR_mesh_quantization", self.is_quantized()),
@@ -200,6 +221,7 @@ impl<'s> Plan<'s> {
     fn extensions(&self) -> impl Iterator<Item = &'static str> {
         let any = |test: fn(&GltfMaterial) -> bool| self.materials.iter().any(test);
         let used = [
+            ("EXT_mesh_gpu_instancing", !self.hierarchy.copies.is_empty()),
             ("EXT_meshopt_compression", self.is_compressed()),
             ("EXT_texture_webp", self.textures.has_webp()),
             ("KHR_lights_punctual", !self.scene.lights.is_empty()),
@@ -215,6 +237,20 @@ impl<'s> Plan<'s> {
             .filter(|(_, used)| *used)
             .map(|(name, _)| name)
     }
+}
+
+/// The corners of the boxes of meshes, in the numbers that are stored.
+fn boxes(meshes: &[GltfMesh], needs: &[Option<Needs>]) -> Vec<[DVec3; 8]> {
+    let corners = |mesh: &GltfMesh| {
+        let Some(needs) = &needs[mesh.source.index()] else {
+            return [DVec3::ZERO; 8];
+        };
+        let step = f64::from(needs.formats.positions.step().unwrap_or(1.0));
+        let [min, max] =
+            [needs.facts.min, needs.facts.max].map(|p| DVec3::from(p.map(f64::from)) / step);
+        corners_between(min, max)
+    };
+    meshes.iter().map(corners).collect()
 }
 
 /// Meshes and materials being gathered from the instances, in their order.

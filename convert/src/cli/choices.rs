@@ -47,6 +47,10 @@ pub struct Choices {
     #[arg(long)]
     pub optimize: bool,
 
+    /// Makes one node of copies of a part below one node (EXT_mesh_gpu_instancing)
+    #[arg(long)]
+    pub instancing: bool,
+
     /// Compresses the numbers of meshes; includes --optimize
     #[arg(long, value_enum, value_name = "CODEC")]
     pub compress: Option<Compression>,
@@ -151,6 +155,7 @@ impl Choices {
             optimize: self.optimize,
             quantize,
             compress: self.compress.is_some(),
+            instancing: self.instancing,
             ..options
         }
     }

@@ -14,9 +14,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use scenegraph::scene::{Mesh, Scene};
 
 use crate::formats::Positions;
+use crate::frame::{STRETCH_TOLERANCE, stretch};
 
-/// Stretches as near to 1 as this are rotations that went through f32.
-const SAME_SCALE: f64 = 1e-6;
 /// Finest and coarsest step: so that multiples of it stay normal, finite f32.
 const STEP_RANGE: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 /// Farthest grid line from the origin: adding [`ROUND`] rounds below it.
@@ -70,25 +69,10 @@ fn moved_by(world_from_local: &DAffine3) -> DVec3 {
     }
 }
 
-/// A bound of the largest singular value: the root of the largest sum of a row of MᵀM, which is
-/// exact for turned and then scaled axes.
-fn stretch(linear: &DMat3) -> f64 {
-    let squares = linear.transpose() * *linear;
-    let rows = squares.transpose();
-    let sum = |row: DVec3| row.abs().element_sum();
-    let largest = sum(rows.x_axis).max(sum(rows.y_axis)).max(sum(rows.z_axis));
-    let stretch = largest.sqrt();
-    if (stretch - 1.0).abs() <= SAME_SCALE {
-        1.0
-    } else {
-        stretch
-    }
-}
-
 /// The largest step of six bits within a tolerance; `None` if there is none that f32 can tell.
 fn step_within(tolerance: f64) -> Option<f64> {
     // As much less as stretches are taken for 1, and roundings.
-    let largest = tolerance * (1.0 - 2.0 * SAME_SCALE) * 2.0 / 3.0_f64.sqrt();
+    let largest = tolerance * (1.0 - 2.0 * STRETCH_TOLERANCE) * 2.0 / 3.0_f64.sqrt();
     if !STEP_RANGE.contains(&largest) {
         return None;
     }

@@ -12,6 +12,7 @@ use std::borrow::Cow;
 use scenegraph::scene::{Mesh, Scene};
 
 use crate::formats::{Colors, Formats, Normals, Texcoords};
+use crate::instancing::TOLERANCE_SHARE;
 use crate::parallel;
 use crate::{Error, Options, Quantize, Up, Weld, sound};
 
@@ -93,7 +94,7 @@ fn with_meshes(scene: &Scene, meshes: Vec<Mesh>) -> Scene {
 
 fn arrange(mesh: &mut Mesh, frame: Option<&grid::Frame>, options: &Options) -> Formats {
     let formats = match (&options.quantize, frame) {
-        (Some(quantize), Some(frame)) => quantized(mesh, frame, quantize, options.compress),
+        (Some(quantize), Some(frame)) => quantized(mesh, frame, quantize, options),
         _ => Formats::default(),
     };
     match options.weld {
@@ -109,11 +110,23 @@ fn arrange(mesh: &mut Mesh, frame: Option<&grid::Frame>, options: &Options) -> F
     formats
 }
 
-fn quantized(mesh: &mut Mesh, frame: &grid::Frame, quantize: &Quantize, compress: bool) -> Formats {
+fn quantized(
+    mesh: &mut Mesh,
+    frame: &grid::Frame,
+    quantize: &Quantize,
+    options: &Options,
+) -> Formats {
     let angle_rad = quantize.normal_tolerance_rad;
+    // The rounding of copies' frames takes the rest.
+    let share = if options.instancing {
+        TOLERANCE_SHARE
+    } else {
+        0.0
+    };
+    let tolerance = quantize.tolerance * (1.0 - share);
     Formats {
-        positions: grid::snap(mesh, frame, quantize.tolerance),
-        normals: if compress {
+        positions: grid::snap(mesh, frame, tolerance),
+        normals: if options.compress {
             Normals::compressed_within(angle_rad)
         } else {
             Normals::within(angle_rad)

@@ -10,6 +10,7 @@ mod containers;
 mod decode;
 mod hierarchy;
 mod hostile;
+mod instancing;
 mod lights_cameras;
 mod losses;
 mod materials;
