@@ -90,11 +90,14 @@ pub(crate) fn texture(json: &mut Json, texture: &Texture) {
     });
 }
 
-/// Says that values which are left out equal Inventor's defaults. A source stands here if there is
-/// no scene to hold it.
-pub(crate) fn asset(json: &mut Json, source: Option<&str>) {
+/// Says that values which are left out equal Inventor's defaults, and whether the model was turned.
+/// A source stands here if there is no scene to hold it.
+pub(crate) fn asset(json: &mut Json, turned_upright: bool, source: Option<&str>) {
     iv(json, |json| {
         json.key("version").u64(VERSION);
+        if turned_upright {
+            json.key("up").str("Y");
+        }
         write_source(json, source);
     });
 }
@@ -159,7 +162,7 @@ pub(crate) fn notable_class(class: &str) -> Option<&str> {
 }
 
 /// What surrounds a shape, by index in the lists of the scene's extras.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Scope {
     pub(crate) light_set: u32,
     pub(crate) environment: u32,

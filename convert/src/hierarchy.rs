@@ -16,7 +16,8 @@ use scenegraph::scene::{NodeId, Placement, Scene, Text};
 
 use crate::extras::Scope;
 use crate::formats::Formats;
-use crate::frame::{is_rotation, uniform_scale};
+use crate::frame::{is_rotation, stretch, uniform_scale};
+use crate::instancing::{self, Copies, Frames, alike};
 use crate::json::Json;
 use crate::{camera, extras, light};
 
@@ -25,6 +26,8 @@ use crate::{camera, extras, light};
 enum Content {
     Nothing,
     Mesh(u32),
+    /// Copies of a mesh, and the number of their batch.
+    Copies(u32, usize),
     Light(u32),
     Camera(u32),
 }
@@ -64,6 +67,7 @@ struct Draft<'s> {
 pub(crate) struct Hierarchy<'s> {
     drafts: Vec<Draft<'s>>,
     roots: Vec<usize>,
+    pub(crate) copies: Copies,
 }
 
 /// A member of a group while the groups are not put together yet.
@@ -120,12 +124,85 @@ impl<'s> Hierarchy<'s> {
         self.roots.is_empty()
     }
 
+    /// Makes one node of copies of a mesh. `corners` are those of each glTF mesh's box, `tolerance`
+    /// how far a point may move in the world.
+    pub(crate) fn gather_copies(&mut self, corners: &[[DVec3; 8]], tolerance: Option<f64>) {
+        let mut open = vec![(None, DAffine3::IDENTITY)];
+        while let Some((parent, world_from_parent)) = open.pop() {
+            let children = match parent {
+                None => std::mem::take(&mut self.roots),
+                Some(parent) => {
+                    let parent: &mut Draft = &mut self.drafts[parent];
+                    std::mem::take(&mut parent.children)
+                }
+            };
+            let tolerance = tolerance.map(|t| t / stretch(&world_from_parent.matrix3));
+            let mut kept = Vec::with_capacity(children.len());
+            for group in alike(&children, |child| self.drafts[child].key_of_copy()) {
+                match self.as_copies(&group, corners, tolerance) {
+                    Some(draft) => {
+                        self.drafts.push(draft);
+                        kept.push(self.drafts.len() - 1);
+                    }
+                    None => kept.extend(group),
+                }
+            }
+            for &child in kept
+                .iter()
+                .filter(|&&child| !self.drafts[child].children.is_empty())
+            {
+                let world_from_local = world_from_parent * self.drafts[child].parent_from_local;
+                open.push((Some(child), world_from_local));
+            }
+            match parent {
+                None => self.roots = kept,
+                Some(parent) => self.drafts[parent].children = kept,
+            }
+        }
+    }
+
+    /// One node for some that are alike; `None` if they stay as they are.
+    fn as_copies(
+        &mut self,
+        group: &[usize],
+        corners: &[[DVec3; 8]],
+        tolerance: Option<f64>,
+    ) -> Option<Draft<'s>> {
+        if group.len() < instancing::MIN_COPIES {
+            return None;
+        }
+        let first = &self.drafts[group[0]];
+        let Content::Mesh(mesh) = first.content else {
+            return None;
+        };
+        let frames: Vec<DAffine3> = group
+            .iter()
+            .map(|&i| self.drafts[i].parent_from_local)
+            .collect();
+        let frames = Frames::new(&frames, &corners[mesh as usize], tolerance)?;
+        let batch = self.copies.add(&frames);
+        Some(Draft {
+            name: first.name,
+            class: first.class,
+            notes: Vec::new(),
+            text: None,
+            scope: first.scope,
+            // It stands for no single place of the source.
+            origin: Origin::default(),
+            parent_from_local: DAffine3::from_translation(frames.middle),
+            content: Content::Copies(mesh, batch),
+            children: Vec::new(),
+        })
+    }
+
     /// `scenes` and `nodes`; gives the number of nodes. Children follow their parents, and those
     /// of one parent stand together.
+    /// The copies' accessors begin at `first_copy`.
     pub(crate) fn write(
         &self,
         json: &mut Json,
         scene: &Scene,
+        first_copy: usize,
         with_extras: bool,
         source: Option<&str>,
     ) -> usize {
@@ -147,7 +224,8 @@ impl<'s> Hierarchy<'s> {
             let mut next = 0;
             while next < queue.len() {
                 let first_child = queue.len();
-                self.write_node(json, queue[next], &mut queue, first_child, with_extras);
+                let part = queue[next];
+                self.write_node(json, part, &mut queue, first_child, first_copy, with_extras);
                 next += 1;
             }
         });
@@ -186,6 +264,7 @@ impl<'s> Hierarchy<'s> {
         part: Part,
         queue: &mut Vec<Part>,
         first_child: usize,
+        first_copy: usize,
         with_extras: bool,
     ) {
         let (draft, inner_rotation) = match part {
@@ -208,7 +287,7 @@ impl<'s> Hierarchy<'s> {
             match splits_to {
                 Some(inner) => queue.push(Part::Inner(draft, inner)),
                 None => {
-                    node.content.write(json);
+                    node.content.write(json, &self.copies, first_copy);
                     queue.extend(node.children.iter().copied().map(Part::Whole));
                 }
             }
@@ -336,6 +415,7 @@ impl<'s> Builder<'s> {
         Hierarchy {
             drafts: self.drafts,
             roots,
+            copies: Copies::default(),
         }
     }
 
@@ -378,6 +458,20 @@ fn resolved(members: &[Member], done: &[Option<usize>]) -> Vec<usize> {
     members.iter().filter_map(draft_of).collect()
 }
 
+impl<'s> Draft<'s> {
+    /// What nodes must have in common to be copies; `None` if this one is more than a mesh.
+    fn key_of_copy(&self) -> Option<(u32, Option<&'s str>, Option<&'s str>, Scope)> {
+        match self.content {
+            Content::Mesh(mesh)
+                if self.children.is_empty() && self.notes.is_empty() && self.text.is_none() =>
+            {
+                Some((mesh, self.name, self.class, self.scope))
+            }
+            _ => None,
+        }
+    }
+}
+
 impl Draft<'_> {
     fn can_merge_with(&self, child: &Self) -> bool {
         let both = |mine: bool, childs: bool| mine && childs;
@@ -413,8 +507,12 @@ impl<'s> Draft<'s> {
 }
 
 impl Content {
-    fn write(self, json: &mut Json) {
+    fn write(self, json: &mut Json, copies: &Copies, first_copy: usize) {
         match self {
+            Self::Copies(index, batch) => {
+                json.key("mesh").u64(index.into());
+                copies.write_batch(json, batch, first_copy);
+            }
             Self::Nothing => {}
             Self::Mesh(index) => json.key("mesh").u64(index.into()),
             Self::Camera(index) => json.key("camera").u64(index.into()),

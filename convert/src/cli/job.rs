@@ -41,7 +41,9 @@ impl Settings {
         let format = args.format().ok();
         let options = Options {
             container: match format {
+                Some(Format::Gltf) if args.embed => Container::GltfEmbedded,
                 Some(Format::Gltf) => Container::GltfBin,
+                Some(Format::Html) => Container::Html,
                 _ => Container::Glb,
             },
             extras: !args.no_extras,
@@ -128,7 +130,7 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
     outcome.failure = target
         .and_then(|(path, format)| match format {
             Format::Iv => to_inventor(&mut outcome, path, settings),
-            Format::Glb | Format::Gltf => to_gltf(&mut outcome, path, settings),
+            Format::Glb | Format::Gltf | Format::Html => to_gltf(&mut outcome, path, settings),
         })
         .err();
     outcome.time = start.elapsed();
