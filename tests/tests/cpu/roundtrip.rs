@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use iv_parser::{Encoding, SourcePos, parse};
+use iv_parser::{Limits, SourcePos, parse, parse_any};
 use scenegraph::scene::{Placement, Scene, TextureSource};
-use scenegraph::{ResolveOptions, load, resolve};
+use scenegraph::{RegistryLayout, ResolveOptions, load, resolve};
 use tests::fuzz_body::{self, print};
 
 use super::models::{Model, corpus, samples};
@@ -57,10 +57,7 @@ fn difference(a: &Scene, b: &Scene) -> Option<&'static str> {
 
 fn check(model: &Model) -> Result<(), String> {
     let bytes = fs::read(&model.path).map_err(|e| e.to_string())?;
-    let parsed = parse(&bytes);
-    if parsed.tree.header.encoding != Encoding::Ascii {
-        return Ok(());
-    }
+    let parsed = parse_any(&bytes, &RegistryLayout, &Limits::default());
     let text = print(&parsed.tree);
     let again = parse(&text);
     if print(&again.tree) != text {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Parser, ValueEnum};
+use convert::command::access::PackedArgs;
 use viewer::compare::Tolerance;
 use viewer::frame::{Extraction, Settings, Shadows, VolumeMethod};
 use viewer::gpu::AdapterChoice;
@@ -119,6 +120,9 @@ pub struct Args {
     /// model's own; may be given several times
     #[arg(long, value_name = "DIR", value_parser = folder)]
     pub search: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub packed: PackedArgs,
 
     /// Prints errors only
     #[arg(short, long)]
