@@ -11,7 +11,7 @@ use tests::fuzz_body::{self, print};
 use super::models::{Model, corpus, samples};
 
 /// A scene without the places of the text it was read from.
-fn scene_of(bytes: &[u8], model: &Model) -> Scene {
+pub fn scene_of(bytes: &[u8], model: &Model) -> Scene {
     let beside = model.path.parent().unwrap_or(Path::new("."));
     let graph = load(bytes, &model.name, beside, &model.loader());
     let mut scene = resolve(&graph, &ResolveOptions::default()).scene;
@@ -40,7 +40,7 @@ fn scene_of(bytes: &[u8], model: &Model) -> Scene {
 }
 
 /// What is not equal, if anything.
-fn difference(a: &Scene, b: &Scene) -> Option<&'static str> {
+pub fn difference(a: &Scene, b: &Scene) -> Option<&'static str> {
     let parts = [
         ("nodes", a.nodes == b.nodes),
         ("instances", a.instances == b.instances),
