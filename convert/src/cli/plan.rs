@@ -15,6 +15,9 @@ use super::inputs::{Input, identity, without_packing};
 pub fn outputs(args: &Args, inputs: &[Input]) -> Result<Vec<Option<PathBuf>>, String> {
     check_single(args, inputs)?;
     let format = args.format()?;
+    if args.binary && format != Format::Iv {
+        return Err("--binary is for Inventor outputs; give -o NAME.iv or --format iv".to_owned());
+    }
     let mut taken = BTreeSet::new();
     let outputs: Vec<Option<PathBuf>> = inputs
         .iter()

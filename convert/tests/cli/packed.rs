@@ -205,6 +205,7 @@ fn binary_files_are_written_and_say_what_is_lost() {
             "warning[not-in-binary]: `Cube.bevel`",
         ),
         ("v1.wrl -o f.iv --binary", 2, "VRML has no binary form"),
+        ("short.iv --binary", 2, "--binary is for Inventor outputs"),
     ] {
         let run = place.run(args);
         assert_eq!(run.code, code, "{args}: {}", run.err);
