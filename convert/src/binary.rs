@@ -22,6 +22,7 @@ pub(crate) fn write_buffer(
     layout: &Layout,
     scene: &Scene,
     needs: &[Option<Needs>],
+    copies: &[Vec<u8>],
     textures: &Textures,
     out: &mut dyn Write,
 ) -> io::Result<()> {
@@ -41,6 +42,13 @@ pub(crate) fn write_buffer(
     for stored in layout.stored.iter().filter(|s| s.buffer == buffer) {
         packer.pad_to(stored.offset)?;
         packer.write_bytes(&stored.encoded.bytes)?;
+    }
+    let first_copy_view = layout.first_image_view - copies.len();
+    for (view, bytes) in layout.views[first_copy_view..].iter().zip(copies) {
+        if view.buffer == buffer {
+            packer.pad_to(view.offset)?;
+            packer.write_bytes(bytes)?;
+        }
     }
     for (i, view) in layout.views[layout.first_image_view..].iter().enumerate() {
         if view.buffer == buffer {

@@ -59,7 +59,7 @@ fn corners(mesh: &Mesh, needs: &Needs, world_from_local: &DAffine3) -> [DVec3; 8
     corners_between(min, max).map(|p| world_from_local.transform_point3(p))
 }
 
-fn corners_between(min: DVec3, max: DVec3) -> [DVec3; 8] {
+pub(crate) fn corners_between(min: DVec3, max: DVec3) -> [DVec3; 8] {
     std::array::from_fn(|i| {
         let pick = |axis: usize| {
             if i >> axis & 1 == 0 {

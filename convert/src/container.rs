@@ -1,7 +1,8 @@
-//! The two containers: `.glb`, and `.gltf` with `.bin`.
+//! The containers: `.glb`, and `.gltf` with `.bin` or with all in it.
 
 use std::io::Write;
 
+use crate::base64::Base64;
 use crate::plan::Plan;
 use crate::{Error, Report};
 
@@ -9,6 +10,7 @@ const GLB_MAGIC: u32 = 0x4654_6c67;
 const GLB_VERSION: u32 = 2;
 const CHUNK_JSON: u32 = 0x4e4f_534a;
 const CHUNK_BIN: u32 = 0x004e_4942;
+const DATA_URI: &str = "data:application/octet-stream;base64,";
 const HEADER_BYTES: u64 = 12;
 const CHUNK_HEADER_BYTES: u64 = 8;
 
@@ -63,6 +65,20 @@ impl Plan<'_> {
         out.write_all(&json)?;
         let bytes = json.len() as u64 + self.layout.buffers.iter().sum::<u64>();
         Ok(self.report_with(nodes, bytes))
+    }
+
+    /// Writes the text of a `.gltf` that holds its buffers too.
+    pub(crate) fn write_gltf_embedded(&self, out: &mut dyn Write) -> Result<Report, Error> {
+        let mut uris = Vec::new();
+        for buffer in 0..self.layout.buffers.len() {
+            let mut text = Base64::new(DATA_URI.as_bytes().to_vec());
+            self.write_buffer(buffer, &mut text)?;
+            // Digits are ASCII.
+            uris.push(String::from_utf8(text.finish()?).unwrap_or_default());
+        }
+        let (json, nodes) = self.json(|buffer| uris.get(buffer).cloned());
+        out.write_all(&json)?;
+        Ok(self.report_with(nodes, json.len() as u64))
     }
 
     fn report_with(&self, nodes: usize, bytes: u64) -> Report {

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use scenegraph::scene::{
     Camera, Environment, Faces, Fog, FogType, Light, LightId, LightKind, LightModel, Material,
-    Scene, Texture, TextureModel, TextureSource, ViewportMapping,
+    Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
 };
 
 use crate::json::Json;
@@ -90,11 +90,14 @@ pub(crate) fn texture(json: &mut Json, texture: &Texture) {
     });
 }
 
-/// Says that values which are left out equal Inventor's defaults. A source stands here if there is
-/// no scene to hold it.
-pub(crate) fn asset(json: &mut Json, source: Option<&str>) {
+/// Says that values which are left out equal Inventor's defaults, and whether the model was turned.
+/// A source stands here if there is no scene to hold it.
+pub(crate) fn asset(json: &mut Json, turned_upright: bool, source: Option<&str>) {
     iv(json, |json| {
         json.key("version").u64(VERSION);
+        if turned_upright {
+            json.key("up").str("Y");
+        }
         write_source(json, source);
     });
 }
@@ -159,7 +162,7 @@ pub(crate) fn notable_class(class: &str) -> Option<&str> {
 }
 
 /// What surrounds a shape, by index in the lists of the scene's extras.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Scope {
     pub(crate) light_set: u32,
     pub(crate) environment: u32,
@@ -169,6 +172,7 @@ pub(crate) fn node<'a>(
     json: &mut Json,
     class: Option<&str>,
     notes: impl IntoIterator<Item = &'a str>,
+    text: Option<&Text>,
     scope: Scope,
 ) {
     iv(json, |json| {
@@ -176,6 +180,12 @@ pub(crate) fn node<'a>(
             json.key("type").str(class);
         }
         json.array_unless_empty("notes", notes, |json, note| json.str(note));
+        if let Some(text) = text {
+            json.array_unless_empty("string", &text.strings, |json, line| json.str(line));
+            if text.faces_viewer {
+                json.key("facesViewer").bool(true);
+            }
+        }
         index(json, "lightSet", scope.light_set);
         index(json, "environment", scope.environment);
     });

@@ -47,6 +47,21 @@ pub fn write_file(
             file.complete()?.keep()?;
             Ok(report)
         }
+        Container::GltfEmbedded => {
+            let mut file = Pending::beside(path)?;
+            let report = plan.write_gltf_embedded(&mut file.out);
+            let report = report.map_err(|e| file.name(e))?;
+            file.complete()?.keep()?;
+            Ok(report)
+        }
+        Container::Html => {
+            let mut file = Pending::beside(path)?;
+            let title = path.file_stem().unwrap_or_default().to_string_lossy();
+            let report = plan.write_html(&title, &mut file.out);
+            let report = report.map_err(|e| file.name(e))?;
+            file.complete()?.keep()?;
+            Ok(report)
+        }
         Container::GltfBin => write_gltf_files(&plan, path),
     }
 }

@@ -228,6 +228,36 @@ mod tests {
     }
 
     #[test]
+    fn points_on_the_octahedron_keep_their_bound() {
+        let normals: Vec<[f32; 4]> = (0..50_000)
+            .map(|i| {
+                let z = 1.0 - (f64::from(i) + 0.5) / 25_000.0;
+                let (sin, cos) = (f64::from(i) * 2.399_963_229_728_653).sin_cos();
+                let rim = (1.0 - z * z).sqrt();
+                [rim * cos, rim * sin, z, 0.0].map(|v| v as f32)
+            })
+            .collect();
+        for bits in 4..=16_u8 {
+            let points = meshopt::encode_filter_oct::<i16>(&normals, bits.into());
+            let mut widest = 0.0_f64;
+            for ([x, y, one, _], n) in points.into_iter().zip(&normals) {
+                // The definition of the filter, in f64 and without its last rounding.
+                let [x, y] = [x, y].map(|v| f64::from(v) / f64::from(one));
+                let z = 1.0 - x.abs() - y.abs();
+                let below = (-z).max(0.0);
+                let v = glam::DVec3::new(x - below.copysign(x), y - below.copysign(y), z);
+                let n = glam::DVec3::new(n[0].into(), n[1].into(), n[2].into());
+                widest = widest.max(v.angle_between(n));
+            }
+            let bound = angle_of_octahedron(bits);
+            assert!(
+                (0.8 * bound..=bound + 1e-6).contains(&widest),
+                "{bits}: {widest} {bound}"
+            );
+        }
+    }
+
+    #[test]
     fn colours_take_eight_bits_only_where_no_level_changes() {
         for (level, want) in [
             (0, Colors::U8),

@@ -8,6 +8,24 @@ use glam::{DAffine3, DMat3, DVec3};
 /// within this bound errs by less than a pixel in a million.
 const SIMILARITY_TOLERANCE: f64 = 1e-6;
 
+/// Stretches as near to 1 as this are rotations that went through f32, and count as 1.
+pub(crate) const STRETCH_TOLERANCE: f64 = 1e-6;
+
+/// A bound of what lengths grow by, the largest singular value: the root of the largest sum of a row of MᵀM, which is
+/// exact for turned and then scaled axes.
+pub(crate) fn stretch(linear: &DMat3) -> f64 {
+    let squares = linear.transpose() * *linear;
+    let rows = squares.transpose();
+    let sum = |row: DVec3| row.abs().element_sum();
+    let largest = sum(rows.x_axis).max(sum(rows.y_axis)).max(sum(rows.z_axis));
+    let stretch = largest.sqrt();
+    if (stretch - 1.0).abs() <= STRETCH_TOLERANCE {
+        1.0
+    } else {
+        stretch
+    }
+}
+
 /// The scale of a frame that is a rotation and a uniform scale; `None` for any other.
 pub(crate) fn uniform_scale(linear: &DMat3) -> Option<f64> {
     let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];

@@ -12,11 +12,12 @@ use std::sync::Arc;
 
 use geometry::transform::{Decomposition, Trs, decompose};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use scenegraph::scene::{NodeId, Placement, Scene};
+use scenegraph::scene::{NodeId, Placement, Scene, Text};
 
 use crate::extras::Scope;
 use crate::formats::Formats;
-use crate::frame::{is_rotation, uniform_scale};
+use crate::frame::{is_rotation, stretch, uniform_scale};
+use crate::instancing::{self, Copies, Frames, alike};
 use crate::json::Json;
 use crate::{camera, extras, light};
 
@@ -25,16 +26,38 @@ use crate::{camera, extras, light};
 enum Content {
     Nothing,
     Mesh(u32),
+    /// Copies of a mesh, and the number of their batch.
+    Copies(u32, usize),
     Light(u32),
     Camera(u32),
 }
 
+/// What of the scene a glTF node shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Item {
+    Instance(usize),
+    Light(usize),
+    Camera(usize),
+}
+
+/// What of the scene a glTF node was made of: groups that became one, and what they hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Origin {
+    /// The outermost and the innermost group.
+    pub(crate) groups: Option<(NodeId, NodeId)>,
+    pub(crate) item: Option<Item>,
+    /// A node whose transform glTF needs two nodes for.
+    pub(crate) is_split: bool,
+}
+
 /// A node being put together.
 struct Draft<'s> {
+    origin: Origin,
     name: Option<&'s str>,
     class: Option<&'s str>,
     notes: Vec<&'s str>,
     scope: Scope,
+    text: Option<&'s Text>,
     parent_from_local: DAffine3,
     content: Content,
     children: Vec<usize>,
@@ -44,6 +67,7 @@ struct Draft<'s> {
 pub(crate) struct Hierarchy<'s> {
     drafts: Vec<Draft<'s>>,
     roots: Vec<usize>,
+    pub(crate) copies: Copies,
 }
 
 /// A member of a group while the groups are not put together yet.
@@ -57,25 +81,29 @@ impl<'s> Hierarchy<'s> {
     /// `meshes` are the glTF meshes of the instances, `formats` those of the scene's meshes.
     pub(crate) fn new(scene: &'s Scene, formats: &[Formats], meshes: &[u32]) -> Self {
         let mut builder = Builder::new(scene);
-        for (instance, &mesh) in scene.instances.iter().zip(meshes) {
+        let mut texts = scene.texts.iter().peekable();
+        for (i, (instance, &mesh)) in scene.instances.iter().zip(meshes).enumerate() {
             let origin = scene.meshes[instance.mesh.index()].origin;
             let placement = &instance.placement;
             let mut local = placement.parent_from_local * DAffine3::from_translation(origin);
             if let Some(step) = formats[instance.mesh.index()].positions.step() {
                 local.matrix3 *= f64::from(step);
             }
-            builder.add_item(placement.node, &placement.name, local, Content::Mesh(mesh));
+            let item = (Item::Instance(i), Content::Mesh(mesh));
+            builder.add_item(placement.node, &placement.name, local, item);
             builder.set_scope(Scope {
                 light_set: instance.light_set.0,
                 environment: instance.environment.0,
             });
+            let text = texts.next_if(|text| text.instance as usize == i);
+            builder.set_text(text);
         }
         let frames = builder.group_frames();
         for (i, light) in scene.lights.iter().enumerate() {
             let keeps = |linear: &DMat3| uniform_scale(linear).is_some();
             builder.add_view(
                 &light.placement,
-                Content::Light(i as u32),
+                (Item::Light(i), Content::Light(i as u32)),
                 |frame| light::frame(&light.kind, frame),
                 |node| keeps(&frames[node.index()].matrix3),
             );
@@ -83,7 +111,7 @@ impl<'s> Hierarchy<'s> {
         for (i, camera) in scene.cameras.iter().enumerate() {
             builder.add_view(
                 &camera.placement,
-                Content::Camera(i as u32),
+                (Item::Camera(i), Content::Camera(i as u32)),
                 |frame| camera::frame(camera, frame),
                 |node| is_rotation(&frames[node.index()].matrix3),
             );
@@ -96,12 +124,85 @@ impl<'s> Hierarchy<'s> {
         self.roots.is_empty()
     }
 
+    /// Makes one node of copies of a mesh. `corners` are those of each glTF mesh's box, `tolerance`
+    /// how far a point may move in the world.
+    pub(crate) fn gather_copies(&mut self, corners: &[[DVec3; 8]], tolerance: Option<f64>) {
+        let mut open = vec![(None, DAffine3::IDENTITY)];
+        while let Some((parent, world_from_parent)) = open.pop() {
+            let children = match parent {
+                None => std::mem::take(&mut self.roots),
+                Some(parent) => {
+                    let parent: &mut Draft = &mut self.drafts[parent];
+                    std::mem::take(&mut parent.children)
+                }
+            };
+            let tolerance = tolerance.map(|t| t / stretch(&world_from_parent.matrix3));
+            let mut kept = Vec::with_capacity(children.len());
+            for group in alike(&children, |child| self.drafts[child].key_of_copy()) {
+                match self.as_copies(&group, corners, tolerance) {
+                    Some(draft) => {
+                        self.drafts.push(draft);
+                        kept.push(self.drafts.len() - 1);
+                    }
+                    None => kept.extend(group),
+                }
+            }
+            for &child in kept
+                .iter()
+                .filter(|&&child| !self.drafts[child].children.is_empty())
+            {
+                let world_from_local = world_from_parent * self.drafts[child].parent_from_local;
+                open.push((Some(child), world_from_local));
+            }
+            match parent {
+                None => self.roots = kept,
+                Some(parent) => self.drafts[parent].children = kept,
+            }
+        }
+    }
+
+    /// One node for some that are alike; `None` if they stay as they are.
+    fn as_copies(
+        &mut self,
+        group: &[usize],
+        corners: &[[DVec3; 8]],
+        tolerance: Option<f64>,
+    ) -> Option<Draft<'s>> {
+        if group.len() < instancing::MIN_COPIES {
+            return None;
+        }
+        let first = &self.drafts[group[0]];
+        let Content::Mesh(mesh) = first.content else {
+            return None;
+        };
+        let frames: Vec<DAffine3> = group
+            .iter()
+            .map(|&i| self.drafts[i].parent_from_local)
+            .collect();
+        let frames = Frames::new(&frames, &corners[mesh as usize], tolerance)?;
+        let batch = self.copies.add(&frames);
+        Some(Draft {
+            name: first.name,
+            class: first.class,
+            notes: Vec::new(),
+            text: None,
+            scope: first.scope,
+            // It stands for no single place of the source.
+            origin: Origin::default(),
+            parent_from_local: DAffine3::from_translation(frames.middle),
+            content: Content::Copies(mesh, batch),
+            children: Vec::new(),
+        })
+    }
+
     /// `scenes` and `nodes`; gives the number of nodes. Children follow their parents, and those
     /// of one parent stand together.
+    /// The copies' accessors begin at `first_copy`.
     pub(crate) fn write(
         &self,
         json: &mut Json,
         scene: &Scene,
+        first_copy: usize,
         with_extras: bool,
         source: Option<&str>,
     ) -> usize {
@@ -123,11 +224,38 @@ impl<'s> Hierarchy<'s> {
             let mut next = 0;
             while next < queue.len() {
                 let first_child = queue.len();
-                self.write_node(json, queue[next], &mut queue, first_child, with_extras);
+                let part = queue[next];
+                self.write_node(json, part, &mut queue, first_child, first_copy, with_extras);
                 next += 1;
             }
         });
         queue.len()
+    }
+
+    /// What the nodes that [`Self::write`] writes were made of, in the same order.
+    pub(crate) fn origins(&self) -> Vec<Origin> {
+        let mut queue: Vec<Part> = self.roots.iter().copied().map(Part::Whole).collect();
+        let mut origins = Vec::new();
+        while let Some(&part) = queue.get(origins.len()) {
+            let (draft, is_inner) = match part {
+                Part::Whole(draft) => (draft, false),
+                Part::Inner(draft, _) => (draft, true),
+            };
+            let node = &self.drafts[draft];
+            let splits_to = match decompose(&node.parent_from_local) {
+                Decomposition::Sheared { inner, .. } if !is_inner => Some(inner),
+                _ => None,
+            };
+            match splits_to {
+                Some(inner) => queue.push(Part::Inner(draft, inner)),
+                None => queue.extend(node.children.iter().copied().map(Part::Whole)),
+            }
+            origins.push(Origin {
+                is_split: is_inner || splits_to.is_some(),
+                ..node.origin
+            });
+        }
+        origins
     }
 
     fn write_node(
@@ -136,6 +264,7 @@ impl<'s> Hierarchy<'s> {
         part: Part,
         queue: &mut Vec<Part>,
         first_child: usize,
+        first_copy: usize,
         with_extras: bool,
     ) {
         let (draft, inner_rotation) = match part {
@@ -158,13 +287,14 @@ impl<'s> Hierarchy<'s> {
             match splits_to {
                 Some(inner) => queue.push(Part::Inner(draft, inner)),
                 None => {
-                    node.content.write(json);
+                    node.content.write(json, &self.copies, first_copy);
                     queue.extend(node.children.iter().copied().map(Part::Whole));
                 }
             }
             json.array_unless_empty("children", first_child..queue.len(), Json::usize);
             if with_extras && inner_rotation.is_none() {
-                extras::node(json, node.class, node.notes.iter().copied(), node.scope);
+                let notes = node.notes.iter().copied();
+                extras::node(json, node.class, notes, node.text, node.scope);
             }
         });
     }
@@ -207,15 +337,20 @@ impl<'s> Builder<'s> {
         group: Option<NodeId>,
         name: &'s Option<Arc<str>>,
         parent_from_local: DAffine3,
-        content: Content,
+        (shown, content): (Item, Content),
     ) {
         let item = Member::Item(self.drafts.len());
         self.members_of(group).push(item);
         self.drafts.push(Draft {
+            origin: Origin {
+                item: Some(shown),
+                ..Origin::default()
+            },
             name: name.as_deref(),
             class: None,
             notes: Vec::new(),
             scope: Scope::default(),
+            text: None,
             parent_from_local,
             content,
             children: Vec::new(),
@@ -229,11 +364,18 @@ impl<'s> Builder<'s> {
         }
     }
 
+    /// What the item added last spells.
+    fn set_text(&mut self, text: Option<&'s Text>) {
+        if let Some(draft) = self.drafts.last_mut() {
+            draft.text = text;
+        }
+    }
+
     /// A light or camera: under its group if `keeps` says so, else at the root.
     fn add_view(
         &mut self,
         placement: &'s Placement,
-        content: Content,
+        content: (Item, Content),
         frame_in: impl Fn(&DAffine3) -> DAffine3,
         keeps: impl Fn(NodeId) -> bool,
     ) {
@@ -273,17 +415,24 @@ impl<'s> Builder<'s> {
         Hierarchy {
             drafts: self.drafts,
             roots,
+            copies: Copies::default(),
         }
     }
 
     /// The draft of a group: its only child, its own, or none when it says and holds nothing.
     fn put_together(&mut self, group: usize, children: Vec<usize>) -> Option<usize> {
         let node = &self.scene.nodes[group];
+        let id = NodeId(group as u32);
         let draft = Draft {
+            origin: Origin {
+                groups: Some((id, id)),
+                ..Origin::default()
+            },
             name: node.name.as_deref(),
             class: extras::notable_class(&node.class),
             notes: node.notes.iter().map(|note| &**note).collect(),
             scope: Scope::default(),
+            text: None,
             parent_from_local: node.parent_from_local,
             content: Content::Nothing,
             children,
@@ -309,6 +458,20 @@ fn resolved(members: &[Member], done: &[Option<usize>]) -> Vec<usize> {
     members.iter().filter_map(draft_of).collect()
 }
 
+impl<'s> Draft<'s> {
+    /// What nodes must have in common to be copies; `None` if this one is more than a mesh.
+    fn key_of_copy(&self) -> Option<(u32, Option<&'s str>, Option<&'s str>, Scope)> {
+        match self.content {
+            Content::Mesh(mesh)
+                if self.children.is_empty() && self.notes.is_empty() && self.text.is_none() =>
+            {
+                Some((mesh, self.name, self.class, self.scope))
+            }
+            _ => None,
+        }
+    }
+}
+
 impl Draft<'_> {
     fn can_merge_with(&self, child: &Self) -> bool {
         let both = |mine: bool, childs: bool| mine && childs;
@@ -331,6 +494,9 @@ impl Draft<'_> {
 impl<'s> Draft<'s> {
     /// Becomes one with the group around it.
     fn take_in(&mut self, group: Draft<'s>) {
+        let inside = self.origin.groups.or(group.origin.groups);
+        let outside = group.origin.groups.or(self.origin.groups);
+        self.origin.groups = outside.zip(inside).map(|((o, _), (_, i))| (o, i));
         self.parent_from_local = group.parent_from_local * self.parent_from_local;
         self.name = group.name.or(self.name);
         self.class = group.class.or(self.class);
@@ -341,8 +507,12 @@ impl<'s> Draft<'s> {
 }
 
 impl Content {
-    fn write(self, json: &mut Json) {
+    fn write(self, json: &mut Json, copies: &Copies, first_copy: usize) {
         match self {
+            Self::Copies(index, batch) => {
+                json.key("mesh").u64(index.into());
+                copies.write_batch(json, batch, first_copy);
+            }
             Self::Nothing => {}
             Self::Mesh(index) => json.key("mesh").u64(index.into()),
             Self::Camera(index) => json.key("camera").u64(index.into()),

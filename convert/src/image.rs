@@ -5,11 +5,14 @@
 use std::io::Cursor;
 
 use ::image::codecs::png::PngEncoder;
+use ::image::codecs::webp::WebPEncoder;
 use ::image::{
     DynamicImage, ExtendedColorType, GrayAlphaImage, GrayImage, ImageDecoder, ImageEncoder,
     ImageFormat, ImageReader, Limits, RgbImage, RgbaImage,
 };
 use scenegraph::scene;
+
+use crate::options::TextureFormat;
 
 /// Largest width and height taken; the limit of current graphics devices is half of it.
 const MAX_IMAGE_SIDE: u32 = 32_768;
@@ -18,6 +21,10 @@ const MAX_DECODED_BYTES: u64 = 512 << 20;
 const UNKNOWN_FORMAT: &str = "neither the content nor the name tells a known image format";
 /// First bytes of SGI `.rgb`, `.rgba` and `.bw` files.
 const SGI_MAGIC: [u8; 2] = [0x01, 0xda];
+
+/// Of [`Encoded::mime`].
+pub(crate) const WEBP: &str = "image/webp";
+const PNG: &str = "image/png";
 
 /// What the alpha channel of an image holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -105,6 +112,47 @@ impl Encoded {
             Mix::Blend(_) if self.alpha != Alpha::Opaque => Self::from_pixels(&pixels),
             _ => Self::from_pixels(&pixels.into_rgb8().into()),
         }
+    }
+
+    /// Takes another format if that is asked for, and for WebP, if it is shorter. What cannot be
+    /// decoded stays as it is.
+    pub(crate) fn put_into(&mut self, format: TextureFormat) {
+        let is_png = self.mime == PNG;
+        let other = match format {
+            TextureFormat::Keep => None,
+            TextureFormat::Png if is_png => None,
+            TextureFormat::Png => self.decoded().and_then(|p| Self::from_pixels(&p).ok()),
+            TextureFormat::Webp => {
+                let webp = self.decoded().and_then(|p| self.webp(&p).ok());
+                webp.filter(|webp| webp.bytes.len() < self.bytes.len())
+            }
+        };
+        if let Some(other) = other {
+            *self = other;
+        }
+    }
+
+    fn decoded(&self) -> Option<DynamicImage> {
+        decode(&self.bytes, sniff(&self.bytes, "")?).ok()
+    }
+
+    fn webp(&self, pixels: &DynamicImage) -> Result<Self, String> {
+        let mut bytes = Vec::new();
+        let encoder = WebPEncoder::new_lossless(&mut bytes);
+        let (width, height) = (pixels.width(), pixels.height());
+        let written = if pixels.color().has_alpha() {
+            let rgba = pixels.to_rgba8();
+            encoder.write_image(&rgba, width, height, ExtendedColorType::Rgba8)
+        } else {
+            let rgb = pixels.to_rgb8();
+            encoder.write_image(&rgb, width, height, ExtendedColorType::Rgb8)
+        };
+        written.map_err(|e| e.to_string())?;
+        Ok(Self {
+            bytes,
+            mime: WEBP,
+            ..*self
+        })
     }
 
     fn from_pixels(pixels: &DynamicImage) -> Result<Self, String> {

@@ -9,6 +9,7 @@ use scenegraph::scene::{MeshId, Scene, Topology};
 use crate::Error;
 use crate::compress::{self, Encoded};
 use crate::formats::{Colors, Formats, Normals, Positions, Texcoords};
+use crate::instancing::Copies;
 use crate::json::Json;
 use crate::mesh::{Attributes, Facts, IndexWidth};
 
@@ -167,6 +168,8 @@ pub(crate) struct Layout {
     pub(crate) accessors: Vec<Accessor>,
     /// By mesh of the scene; those that nothing shows have default values.
     pub(crate) meshes: Vec<MeshAccessors>,
+    /// View behind those of meshes: of the copies, if there are some.
+    first_copy_view: usize,
     /// View of the first image; the others follow.
     pub(crate) first_image_view: usize,
     /// What stands in a buffer in place of the meshes' views, if they are compressed; by view.
@@ -188,11 +191,11 @@ impl Layout {
     pub(crate) fn new(
         scene: &Scene,
         needs: &[Option<Needs>],
-        image_lens: impl Iterator<Item = u64>,
+        other_lens: impl Iterator<Item = u64>,
         max_buffer_bytes: u64,
     ) -> Result<Self, Error> {
         let mut layout = Self::of_meshes(scene, needs, &Kind::OF_MESHES, max_buffer_bytes)?;
-        layout.add_images(image_lens, max_buffer_bytes)?;
+        layout.add_others(other_lens, max_buffer_bytes)?;
         Ok(layout)
     }
 
@@ -200,13 +203,13 @@ impl Layout {
     pub(crate) fn compressed(
         scene: &Scene,
         needs: &[Option<Needs>],
-        image_lens: impl Iterator<Item = u64>,
+        other_lens: impl Iterator<Item = u64>,
         max_buffer_bytes: u64,
         threads: usize,
     ) -> Result<Self, Error> {
         let mut layout = Self::of_meshes(scene, needs, &Kind::APART, u64::MAX)?;
         let Some(encoded) = compress::encode(&layout, scene, needs, threads) else {
-            return Self::new(scene, needs, image_lens, max_buffer_bytes);
+            return Self::new(scene, needs, other_lens, max_buffer_bytes);
         };
         // One buffer, as its length has no limit.
         layout.unpacked = layout.buffers.pop();
@@ -219,21 +222,22 @@ impl Layout {
                 offset,
             });
         }
-        layout.add_images(image_lens, max_buffer_bytes)?;
+        layout.add_others(other_lens, max_buffer_bytes)?;
         // The buffer without bytes stands behind all that have some.
-        for view in &mut layout.views[..layout.first_image_view] {
+        for view in &mut layout.views[..layout.first_copy_view] {
             view.buffer = layout.buffers.len();
         }
         Ok(layout)
     }
 
-    fn add_images(
+    fn add_others(
         &mut self,
-        image_lens: impl Iterator<Item = u64>,
+        other_lens: impl Iterator<Item = u64>,
         max_buffer_bytes: u64,
     ) -> Result<(), Error> {
+        self.first_copy_view = self.views.len();
         self.first_image_view = self.views.len();
-        for len in image_lens {
+        for len in other_lens {
             self.place(Kind::Image, None, len, max_buffer_bytes)?;
         }
         Ok(())
@@ -346,10 +350,14 @@ impl Layout {
         json: &mut Json,
         scene: &Scene,
         needs: &[Option<Needs>],
+        copies: &Copies,
         uri_of: impl Fn(usize) -> Option<String>,
     ) {
-        json.array_unless_empty("accessors", &self.accessors, |json, accessor| {
-            accessor.write(json, scene, needs[accessor.mesh.index()].as_ref());
+        let count = self.accessors.len();
+        let all = 0..count + copies.accessor_count();
+        json.array_unless_empty("accessors", all, |json, i| match self.accessors.get(i) {
+            Some(accessor) => accessor.write(json, scene, needs[accessor.mesh.index()].as_ref()),
+            None => copies.write_accessor(json, i - count, self.first_copy_view),
         });
         let views = self.views.iter().enumerate();
         json.array_unless_empty("bufferViews", views, |json, (i, view)| {

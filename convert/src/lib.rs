@@ -20,6 +20,7 @@
 //! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
 //! only.
 
+mod base64;
 mod binary;
 mod blocks;
 mod bounds;
@@ -34,7 +35,9 @@ mod file;
 mod formats;
 mod frame;
 mod hierarchy;
+mod html;
 mod image;
+mod instancing;
 mod json;
 mod layout;
 mod light;
@@ -63,7 +66,7 @@ use scenegraph::scene::Scene;
 pub use error::Error;
 pub use file::write_file;
 pub use loss::{Effect, Loss, LossKind, losses_markdown};
-pub use options::{Container, Options, Quantize, Weld};
+pub use options::{Container, Lights, Materials, Options, Quantize, TextureFormat, Up, Weld};
 pub use pixels::Pixels;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};

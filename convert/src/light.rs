@@ -18,6 +18,7 @@ use crate::color::{linear_rgb_from_srgb, unit};
 use crate::extras;
 use crate::frame::{looking, unit_or};
 use crate::json::Json;
+use crate::options::Lights;
 
 /// Share of the scene's radius within which a light counts as at its centre, where it lights
 /// what is around it: at the distance of the radius.
@@ -31,6 +32,8 @@ const INNER_CONE_BRIGHTNESS: f64 = 0.9;
 const INNER_CONE_SHARE: f64 = 0.999;
 /// Narrowest cone, radians.
 const MIN_CONE_RAD: f64 = 1e-4;
+/// Of green light (SI, `K_cd`), as converters take it for all light.
+const LUMEN_PER_WATT: f64 = 683.0;
 /// Viewers hold f32.
 const MAX_INTENSITY: f64 = 1e30;
 
@@ -59,6 +62,7 @@ pub(crate) fn write(
     light: &Light,
     environment: &Environment,
     bounds: Option<&Bounds>,
+    unit: Lights,
     with_extras: bool,
 ) {
     json.object(|json| {
@@ -71,7 +75,11 @@ pub(crate) fn write(
         if color_linear != [1.0; 3] {
             json.key("color").f32s(&color_linear.map(|v| v as f32));
         }
-        let strength = intensity(light, environment, bounds);
+        let factor = match unit {
+            Lights::Unitless => 1.0,
+            Lights::Physical => LUMEN_PER_WATT,
+        };
+        let strength = (intensity(light, environment, bounds) * factor).min(MAX_INTENSITY);
         if strength != 1.0 {
             json.key("intensity").f32(strength as f32);
         }

@@ -40,6 +40,8 @@ pub enum LossKind {
     ViewportMapping,
     /// A camera in a mirrored or sheared frame.
     CameraFrame,
+    /// Text that faces the viewer and keeps its size in pixels.
+    ScreenText,
 }
 
 impl LossKind {
@@ -51,7 +53,7 @@ impl LossKind {
     }
 
     /// All kinds, in the order of the document.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Fog,
         Self::AmbientLight,
         Self::LightScope,
@@ -64,6 +66,7 @@ impl LossKind {
         Self::PointSize,
         Self::ViewportMapping,
         Self::CameraFrame,
+        Self::ScreenText,
     ];
 
     /// Stable short name.
@@ -171,6 +174,14 @@ impl LossKind {
                 Approximated,
                 "a camera in a mirrored or unevenly scaled frame shows its image undistorted",
                 "position, view direction and upright are kept",
+            ),
+            Self::ScreenText => (
+                "screen-text",
+                Approximated,
+                "text that faces the viewer, in pixels, is flat text in the world",
+                "it has the direction and size of one view: that of the first camera, else one \
+                 that shows the whole scene, 600 pixels high; the words are in the node's \
+                 `extras.iv.string`",
             ),
         }
     }

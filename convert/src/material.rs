@@ -16,6 +16,7 @@ use crate::color::{linear_rgb_from_srgb, unit};
 use crate::extras;
 use crate::image::Alpha;
 use crate::json::Json;
+use crate::options::Materials;
 use crate::texture::{Role, Shown};
 
 /// Whether a mesh has colours of its own.
@@ -62,6 +63,8 @@ pub(crate) struct GltfMaterial {
     pub(crate) roughness: f64,
     /// `None` when nothing is mirrored.
     pub(crate) specular: Option<Specular>,
+    /// Without extensions for what it mirrors.
+    pub(crate) is_simple: bool,
     pub(crate) unlit: bool,
     pub(crate) alpha_mode: AlphaMode,
     pub(crate) double_sided: bool,
@@ -75,20 +78,28 @@ impl GltfMaterial {
         material: &Material,
         surroundings: Surroundings,
         texture: Option<Shown>,
+        look: Materials,
     ) -> Self {
         let role = texture.map(|t| t.role);
         let replaced = role == Some(Role::Replace);
-        let unlit =
-            replaced || material.light_model == LightModel::BaseColor || !surroundings.can_be_lit;
+        let unlit = replaced
+            || material.light_model == LightModel::BaseColor
+            || !surroundings.can_be_lit
+            || look == Materials::Unlit;
         let reads_colors = !replaced && surroundings.colors != VertexColors::None;
         let texture_alpha = texture.map_or(Alpha::Opaque, |t| t.alpha);
 
         let (roughness, f0) = lobe(material);
+        let f0 = if look == Materials::Simple {
+            [0.0; 3]
+        } else {
+            f0
+        };
         let f0_max = f0.into_iter().fold(0.0, f64::max);
         let [r, g, b] = if reads_colors || matches!(role, Some(Role::Replace | Role::Diffuse)) {
             [1.0; 3]
         } else {
-            linear_rgb_from_srgb(material.diffuse_srgb)
+            linear_rgb_from_srgb(color_srgb(material, look))
         };
         let scattered = |v: f64| {
             if unlit || v == 0.0 {
@@ -121,6 +132,7 @@ impl GltfMaterial {
                 factor: f0_max,
                 color_linear: f0.map(|v| v / f0_max),
             }),
+            is_simple: look == Materials::Simple,
             unlit,
             alpha_mode: match texture_alpha {
                 _ if translucent => AlphaMode::Blend,
@@ -151,8 +163,7 @@ impl GltfMaterial {
             if self.double_sided {
                 json.key("doubleSided").bool(true);
             }
-            json.key("extensions")
-                .object(|json| self.write_extensions(json));
+            json.object_unless_empty("extensions", |json| self.write_extensions(json));
             if with_extras {
                 extras::material(json, material);
             }
@@ -181,6 +192,9 @@ impl GltfMaterial {
             json.key("KHR_materials_unlit").object(|_| {});
             return;
         }
+        if self.is_simple {
+            return;
+        }
         if self.specular.is_some() {
             json.key("KHR_materials_ior")
                 .object(|json| json.key("ior").u64(0));
@@ -201,6 +215,17 @@ impl GltfMaterial {
                     }
                 }
             });
+    }
+}
+
+/// The colour under white light, display-referred. Without light that emitted is in it.
+fn color_srgb(material: &Material, look: Materials) -> [f64; 3] {
+    match look {
+        Materials::Unlit if material.light_model == LightModel::Phong => {
+            let (diffuse, emissive) = (material.diffuse_srgb, material.emissive_srgb);
+            std::array::from_fn(|i| unit(diffuse[i]) + unit(emissive[i]))
+        }
+        _ => material.diffuse_srgb,
     }
 }
 

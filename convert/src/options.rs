@@ -9,6 +9,10 @@ pub enum Container {
     Glb,
     /// JSON text, `.gltf`, with its numbers in `.bin` files.
     GltfBin,
+    /// JSON text, `.gltf`, with its numbers in it as base64.
+    GltfEmbedded,
+    /// A page, `.html`, with a viewer and a `.glb` in it.
+    Html,
 }
 
 /// Options of a conversion.
@@ -26,6 +30,16 @@ pub struct Options {
     /// JSON that goes into `extras.iv.source` of the scene as it is; see
     /// [`write_file_with_source`](crate::write_file_with_source).
     pub source: Option<Arc<str>>,
+    /// Which of the model's axes points upwards; it becomes glTF's, +Y.
+    pub up: Up,
+    /// How many metres the model's unit has; glTF's is the metre.
+    pub metres_per_unit: f64,
+    /// What becomes of materials.
+    pub materials: Materials,
+    /// The unit of lights.
+    pub lights: Lights,
+    /// The format of images.
+    pub textures: TextureFormat,
     /// Which vertices triangles share.
     pub weld: Weld,
     /// Whether triangles and vertices are put in an order that suits graphics devices.
@@ -35,6 +49,8 @@ pub struct Options {
     /// Whether the numbers of meshes are compressed (`EXT_meshopt_compression`). Includes
     /// `optimize`, in an order that suits the compression.
     pub compress: bool,
+    /// Whether copies of a mesh below one node become one node (`EXT_mesh_gpu_instancing`).
+    pub instancing: bool,
     /// Most threads that work on meshes. The output does not depend on it.
     pub threads: usize,
 }
@@ -47,13 +63,59 @@ impl Default for Options {
             max_glb_bytes: u64::from(u32::MAX),
             max_bin_bytes: u64::from(u32::MAX),
             source: None,
+            up: Up::Y,
+            metres_per_unit: 1.0,
+            materials: Materials::Fidelity,
+            lights: Lights::Unitless,
+            textures: TextureFormat::Keep,
             weld: Weld::Shared,
             optimize: false,
             quantize: None,
             compress: false,
+            instancing: false,
             threads: 1,
         }
     }
+}
+
+/// The axis that points upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Up {
+    /// As Inventor's own cameras have it, and glTF; nothing is turned.
+    Y,
+    /// As most CAD systems have it.
+    Z,
+}
+
+/// What becomes of Inventor's materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Materials {
+    /// Highlights as in Inventor, with `KHR_materials_specular` and `KHR_materials_ior`.
+    Fidelity,
+    /// Colour and roughness alone, which all viewers know; highlights are those of plastic.
+    Simple,
+    /// Colours as they are, without light (`KHR_materials_unlit`); normals are left out.
+    Unlit,
+}
+
+/// The unit of lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Lights {
+    /// Inventor's intensity 1 makes a white surface white, as viewers without exposure show it.
+    Unitless,
+    /// Lux and candela of Inventor's intensity taken for watts: 683 lumen each.
+    Physical,
+}
+
+/// The format of images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TextureFormat {
+    /// PNG and JPEG files stay byte for byte; all else becomes PNG.
+    Keep,
+    /// All become PNG.
+    Png,
+    /// Lossless WebP (`EXT_texture_webp`) where that is smaller.
+    Webp,
 }
 
 /// Which vertices triangles, lines and points share.

@@ -2,12 +2,14 @@
 
 use std::io::{self, Write};
 
+use glam::DVec3;
 use rustc_hash::FxHashMap;
 use scenegraph::scene::{Instance, MaterialId, MeshId, Scene, Topology};
 
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, corners_between};
 use crate::formats::{Formats, Normals, Positions};
-use crate::hierarchy::Hierarchy;
+use crate::hierarchy::{Hierarchy, Origin};
+use crate::instancing::TOLERANCE_SHARE;
 use crate::json::Json;
 use crate::layout::{Layout, Needs};
 use crate::material::{GltfMaterial, Surroundings, VertexColors};
@@ -15,7 +17,7 @@ use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_textur
 use crate::prepare::Prepared;
 use crate::remarks::Remarks;
 use crate::texture::{TextureLoader, Textures};
-use crate::{Container, Error, Options, Report, binary, camera, extras, light};
+use crate::{Container, Error, Materials, Options, Report, Up, binary, camera, extras, light};
 
 /// A conversion with everything decided and measured: which materials, meshes, nodes and images
 /// there are, and where each number goes.
@@ -29,6 +31,8 @@ pub(crate) struct Plan<'s> {
     needs: Vec<Option<Needs>>,
     pub(crate) layout: Layout,
     hierarchy: Hierarchy<'s>,
+    /// Bytes of the views before the images.
+    copies: Vec<Vec<u8>>,
     bounds: Option<Bounds>,
     pub(crate) report: Report,
 }
@@ -45,7 +49,7 @@ impl<'s> Plan<'s> {
         loader: &'s dyn TextureLoader,
     ) -> Result<Self, Error> {
         let scene = &*prepared.scene;
-        let mut gathering = Gathering::new(scene, &prepared.formats, loader);
+        let mut gathering = Gathering::new(scene, &prepared.formats, options, loader);
         let meshes_of_instances: Vec<u32> = scene
             .instances
             .iter()
@@ -62,16 +66,25 @@ impl<'s> Plan<'s> {
         } = gathering;
 
         let max_buffer_bytes = match options.container {
-            Container::Glb => u64::MAX,
+            Container::Glb | Container::Html | Container::GltfEmbedded => u64::MAX,
             Container::GltfBin => options.max_bin_bytes,
         };
         let image_lens = (0..textures.image_count()).map(|i| textures.image_bytes(i).len() as u64);
-        let layout = if options.compress {
+        let mut hierarchy = Hierarchy::new(scene, &prepared.formats, &meshes_of_instances);
+        if options.instancing {
+            let tolerance = options.quantize.map(|q| q.tolerance * TOLERANCE_SHARE);
+            hierarchy.gather_copies(&boxes(&meshes, &needs), tolerance);
+        }
+        let copies = hierarchy.copies.views();
+        let copy_lens = copies.iter().map(|view| view.len() as u64);
+        let other_lens = copy_lens.chain(image_lens);
+        let mut layout = if options.compress {
             let threads = options.threads;
-            Layout::compressed(scene, &needs, image_lens, max_buffer_bytes, threads)?
+            Layout::compressed(scene, &needs, other_lens, max_buffer_bytes, threads)?
         } else {
-            Layout::new(scene, &needs, image_lens, max_buffer_bytes)?
+            Layout::new(scene, &needs, other_lens, max_buffer_bytes)?
         };
+        layout.first_image_view += copies.len();
         let mut report = Report {
             losses: remarks.into_losses(),
             warnings: textures.take_warnings(),
@@ -90,7 +103,8 @@ impl<'s> Plan<'s> {
             .sum();
         Ok(Self {
             bounds: Bounds::of(scene, &needs),
-            hierarchy: Hierarchy::new(scene, &prepared.formats, &meshes_of_instances),
+            hierarchy,
+            copies,
             scene,
             options: options.clone(),
             textures,
@@ -102,9 +116,19 @@ impl<'s> Plan<'s> {
         })
     }
 
+    /// What of the scene the glTF objects were made of.
+    pub(crate) fn origins(&self) -> Origins {
+        Origins {
+            nodes: self.hierarchy.origins(),
+            materials: self.materials.iter().map(|m| m.source).collect(),
+            meshes: self.meshes.iter().map(|m| m.source).collect(),
+        }
+    }
+
     pub(crate) fn write_buffer(&self, buffer: usize, out: &mut dyn Write) -> io::Result<()> {
         let (layout, needs) = (&self.layout, &self.needs);
-        binary::write_buffer(buffer, layout, self.scene, needs, &self.textures, out)
+        let (copies, textures) = (&self.copies, &self.textures);
+        binary::write_buffer(buffer, layout, self.scene, needs, copies, textures, out)
     }
 
     /// The glTF text, and the number of its nodes; `uri_of` names the files of the buffers.
@@ -121,13 +145,17 @@ impl<'s> Plan<'s> {
                 json.key("generator")
                     .str(concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")));
                 if with_extras {
-                    extras::asset(json, source.filter(|_| self.hierarchy.is_empty()));
+                    let source = source.filter(|_| self.hierarchy.is_empty());
+                    extras::asset(json, self.options.up == Up::Z, source);
                 }
             });
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
             json.array_unless_empty("extensionsRequired", self.required(), Json::str);
             self.write_lights(json);
-            nodes = self.hierarchy.write(json, self.scene, with_extras, source);
+            let first_copy = self.layout.accessors.len();
+            nodes = self
+                .hierarchy
+                .write(json, self.scene, first_copy, with_extras, source);
             json.array_unless_empty("cameras", &self.scene.cameras, |json, camera| {
                 camera::write(json, camera, self.bounds.as_ref(), with_extras);
             });
@@ -143,7 +171,9 @@ impl<'s> Plan<'s> {
             let first_image_view = self.layout.first_image_view;
             self.textures
                 .write(json, with_extras, |image| (first_image_view + image) as u32);
-            self.layout.write(json, self.scene, &self.needs, uri_of);
+            let copies = &self.hierarchy.copies;
+            self.layout
+                .write(json, self.scene, &self.needs, copies, uri_of);
         });
         (json.into_bytes(), nodes)
     }
@@ -157,7 +187,14 @@ impl<'s> Plan<'s> {
                 json.array_unless_empty("lights", &self.scene.lights, |json, light| {
                     let environment = &self.scene.environments[light.environment.index()];
                     let bounds = self.bounds.as_ref();
-                    light::write(json, light, environment, bounds, self.options.extras);
+                    light::write(
+                        json,
+                        light,
+                        environment,
+                        bounds,
+                        self.options.lights,
+                        self.options.extras,
+                    );
                 });
             });
         });
@@ -181,7 +218,9 @@ impl<'s> Plan<'s> {
     /// The extensions without which the file cannot be shown.
     fn required(&self) -> impl Iterator<Item = &'static str> {
         let required = [
+            ("EXT_mesh_gpu_instancing", !self.hierarchy.copies.is_empty()),
             ("EXT_meshopt_compression", self.is_compressed()),
+            ("EXT_texture_webp", self.textures.has_webp()),
             ("KHR_mesh_quantization", self.is_quantized()),
         ];
         required
@@ -193,13 +232,15 @@ impl<'s> Plan<'s> {
     fn extensions(&self) -> impl Iterator<Item = &'static str> {
         let any = |test: fn(&GltfMaterial) -> bool| self.materials.iter().any(test);
         let used = [
+            ("EXT_mesh_gpu_instancing", !self.hierarchy.copies.is_empty()),
             ("EXT_meshopt_compression", self.is_compressed()),
+            ("EXT_texture_webp", self.textures.has_webp()),
             ("KHR_lights_punctual", !self.scene.lights.is_empty()),
             (
                 "KHR_materials_ior",
                 any(|m| !m.unlit && m.specular.is_some()),
             ),
-            ("KHR_materials_specular", any(|m| !m.unlit)),
+            ("KHR_materials_specular", any(|m| !m.unlit && !m.is_simple)),
             ("KHR_materials_unlit", any(|m| m.unlit)),
             ("KHR_mesh_quantization", self.is_quantized()),
         ];
@@ -209,10 +250,33 @@ impl<'s> Plan<'s> {
     }
 }
 
+/// For each glTF object what of the scene it was made of.
+#[derive(Debug)]
+pub(crate) struct Origins {
+    pub(crate) nodes: Vec<Origin>,
+    pub(crate) materials: Vec<MaterialId>,
+    pub(crate) meshes: Vec<MeshId>,
+}
+
+/// The corners of the boxes of meshes, in the numbers that are stored.
+fn boxes(meshes: &[GltfMesh], needs: &[Option<Needs>]) -> Vec<[DVec3; 8]> {
+    let corners = |mesh: &GltfMesh| {
+        let Some(needs) = &needs[mesh.source.index()] else {
+            return [DVec3::ZERO; 8];
+        };
+        let step = f64::from(needs.formats.positions.step().unwrap_or(1.0));
+        let [min, max] =
+            [needs.facts.min, needs.facts.max].map(|p| DVec3::from(p.map(f64::from)) / step);
+        corners_between(min, max)
+    };
+    meshes.iter().map(corners).collect()
+}
+
 /// Meshes and materials being gathered from the instances, in their order.
 struct Gathering<'s> {
     scene: &'s Scene,
     formats: &'s [Formats],
+    look: Materials,
     textures: Textures<'s>,
     materials: Vec<GltfMaterial>,
     material_of: FxHashMap<(MaterialId, Surroundings), u32>,
@@ -224,11 +288,17 @@ struct Gathering<'s> {
 }
 
 impl<'s> Gathering<'s> {
-    fn new(scene: &'s Scene, formats: &'s [Formats], loader: &'s dyn TextureLoader) -> Self {
+    fn new(
+        scene: &'s Scene,
+        formats: &'s [Formats],
+        options: &Options,
+        loader: &'s dyn TextureLoader,
+    ) -> Self {
         Self {
             scene,
             formats,
-            textures: Textures::new(scene, loader),
+            look: options.materials,
+            textures: Textures::new(scene, loader, options.textures),
             materials: Vec::new(),
             material_of: FxHashMap::default(),
             meshes: Vec::new(),
@@ -294,8 +364,13 @@ impl<'s> Gathering<'s> {
         };
         let texture = texture.and_then(|id| self.textures.show(id, diffuse_srgb));
         let index = self.materials.len() as u32;
-        self.materials
-            .push(GltfMaterial::new(material, source, surroundings, texture));
+        self.materials.push(GltfMaterial::new(
+            material,
+            source,
+            surroundings,
+            texture,
+            self.look,
+        ));
         self.material_of.insert((material, surroundings), index);
         index
     }

@@ -36,6 +36,7 @@ impl<'s> Remarks<'s> {
     }
 
     pub(crate) fn into_losses(mut self) -> Vec<crate::Loss> {
+        self.texts();
         self.lights();
         self.cameras();
         self.losses.into_sorted()
@@ -150,6 +151,19 @@ impl<'s> Remarks<'s> {
                 self.losses
                     .add(LossKind::SpotDropOff, pos, || drop_off_rate.to_string());
             }
+        }
+    }
+
+    fn texts(&mut self) {
+        for text in self.scene.texts.iter().filter(|text| text.faces_viewer) {
+            let instance = self.scene.instances.get(text.instance as usize);
+            let pos = instance.map_or_else(SourcePos::default, |i| i.placement.pos);
+            let first = || {
+                text.strings
+                    .first()
+                    .map_or_else(String::new, |s| s.to_string())
+            };
+            self.losses.add(LossKind::ScreenText, pos, first);
         }
     }
 

@@ -8,8 +8,9 @@ use scenegraph::scene::{Scene, Texture, TextureId, TextureModel, TextureSource, 
 
 use crate::Warning;
 use crate::color::unit;
-use crate::image::{Alpha, Encoded, Mix};
+use crate::image::{Alpha, Encoded, Mix, WEBP};
 use crate::json::Json;
+use crate::options::TextureFormat;
 
 /// The only way to files.
 pub trait TextureLoader {
@@ -49,6 +50,12 @@ struct Stored {
     image: Option<u32>,
 }
 
+impl Stored {
+    fn is_webp(&self) -> bool {
+        self.encoded.mime == WEBP
+    }
+}
+
 struct GltfTexture {
     image: u32,
     sampler: u32,
@@ -59,6 +66,7 @@ struct GltfTexture {
 pub(crate) struct Textures<'s> {
     scene: &'s Scene,
     loader: &'s dyn TextureLoader,
+    format: TextureFormat,
     stored: Vec<Stored>,
     /// Candidates by hash of their bytes.
     by_content: FxHashMap<u64, Vec<usize>>,
@@ -75,10 +83,15 @@ pub(crate) struct Textures<'s> {
 }
 
 impl<'s> Textures<'s> {
-    pub(crate) fn new(scene: &'s Scene, loader: &'s dyn TextureLoader) -> Self {
+    pub(crate) fn new(
+        scene: &'s Scene,
+        loader: &'s dyn TextureLoader,
+        format: TextureFormat,
+    ) -> Self {
         Self {
             scene,
             loader,
+            format,
             stored: Vec::new(),
             by_content: FxHashMap::default(),
             by_texture: FxHashMap::default(),
@@ -99,6 +112,12 @@ impl<'s> Textures<'s> {
 
     pub(crate) fn image_count(&self) -> usize {
         self.images.len()
+    }
+
+    pub(crate) fn has_webp(&self) -> bool {
+        self.images
+            .iter()
+            .any(|&stored| self.stored[stored].is_webp())
     }
 
     /// Bytes of the image at `index` of the output.
@@ -220,10 +239,16 @@ impl<'s> Textures<'s> {
             return known;
         }
         let images = &mut self.images;
-        let image = *self.stored[stored].image.get_or_insert_with(|| {
-            images.push(stored);
-            (images.len() - 1) as u32
-        });
+        let known = &mut self.stored[stored];
+        let image = match known.image {
+            Some(image) => image,
+            None => {
+                known.encoded.put_into(self.format);
+                images.push(stored);
+                (images.len() - 1) as u32
+            }
+        };
+        known.image = Some(image);
         let texture = &self.scene.textures[source.index()];
         let wraps = (texture.wrap_s, texture.wrap_t);
         let sampler = self.samplers.iter().position(|&known| known == wraps);
@@ -250,7 +275,15 @@ impl<'s> Textures<'s> {
                     json.key("name").str(name);
                 }
                 json.key("sampler").u64(texture.sampler.into());
-                json.key("source").u64(texture.image.into());
+                let image = self.images[texture.image as usize];
+                if self.stored[image].is_webp() {
+                    json.key("extensions").object(|json| {
+                        json.key("EXT_texture_webp")
+                            .object(|json| json.key("source").u64(texture.image.into()));
+                    });
+                } else {
+                    json.key("source").u64(texture.image.into());
+                }
                 if extras {
                     crate::extras::texture(json, source);
                 }
@@ -333,7 +366,7 @@ mod tests {
             }],
             ..Scene::default()
         };
-        let mut textures = Textures::new(&scene, &NoFiles);
+        let mut textures = Textures::new(&scene, &NoFiles, TextureFormat::Keep);
         textures.mixed_pixels = MAX_MIXED_PIXELS - 4;
         let colors = [0.0, 0.25, 0.5, 0.75, 0.25];
         let shown = colors.map(|v| textures.show(TextureId(0), [v; 3]).map(|t| t.index));

@@ -18,6 +18,7 @@
 //! | [`transform`] | a matrix as translation, rotation and scale; normal matrices; mirroring |
 //! | [`triangulate`] | a polygon as triangles |
 //! | [`normal`] | face normals and crease-angle vertex normals |
+//! | [`outline`] | closed curves of the plane as areas: letters |
 //! | [`weld`] | which vertices are bitwise equal |
 //! | [`local_origin`] | the point that `f32` positions should be stored relative to |
 //! | [`generalized_cylinder`] | a cross section swept along a spine |
@@ -33,6 +34,7 @@ mod newell;
 pub mod normal;
 pub mod num;
 pub mod nurbs;
+pub mod outline;
 #[cfg(test)]
 mod test_rng;
 pub mod transform;

@@ -13,6 +13,7 @@
 
 mod binary;
 mod diagnostic;
+mod edit;
 mod header;
 mod lex;
 mod limits;
@@ -26,6 +27,7 @@ mod tree;
 
 pub use binary::{ClassShape, Schema, ValueKind, ValueType, has_binary_form, print_binary};
 pub use diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
+pub use edit::TextEdits;
 pub use header::{Dialect, Encoding, Header};
 pub use limits::Limits;
 pub use list::{List, Part};

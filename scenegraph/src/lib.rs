@@ -11,6 +11,7 @@
 //!
 //! Files are opened by the [`Loader`] only.
 
+mod font;
 pub mod graph;
 mod loader;
 mod lower;
@@ -21,9 +22,10 @@ pub mod scene;
 mod shape;
 mod write;
 
+pub use font::AddedFont;
 pub use graph::Graph;
 pub use loader::{FileLoader, LoadError, Loaded, Loader};
 pub use lower::{RegistryLayout, load, load_with};
 pub use resolve::{Geometry, ResolveLimits, ResolveOptions, Resolved, resolve};
 pub use shape::Measure;
-pub use write::{ImageForm, SceneText, write_scene, write_shape};
+pub use write::{ImageForm, SceneText, legal_name, write_scene, write_shape};

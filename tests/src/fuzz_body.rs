@@ -87,6 +87,7 @@ pub fn resolve_within(bytes: &[u8], limits: ResolveLimits) -> Resolved {
     let options = |geometry| ResolveOptions {
         geometry,
         like_coin: false,
+        chord: None,
         limits,
         ..ResolveOptions::default()
     };

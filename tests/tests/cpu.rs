@@ -5,13 +5,16 @@
 mod cpu {
     mod corpus;
     mod determinism;
+    mod edited;
     mod glb;
     mod gltf_in;
     mod includes;
     mod large;
     mod measures;
     mod models;
+    mod nurbs;
     mod precision;
+    mod random_models;
     mod reference;
     mod robustness;
     mod roundtrip;

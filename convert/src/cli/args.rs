@@ -18,6 +18,10 @@ Examples:
         writes house.glb beside it
   ivconvert house.iv -o web/house.gltf
         writes house.gltf and house.bin
+  ivconvert house.iv --html --up z --units cm
+        writes house.html, which any browser shows, upright and in metres
+  ivconvert house.iv --quantize --tolerance 0.1mm --compress meshopt
+        as small as the tolerance allows
   ivconvert models --out-dir web
         all .iv and .wrl files below models, in the same structure below web
   ivconvert house.iv --search ~/textures
@@ -60,6 +64,15 @@ pub struct Args {
     #[arg(long, value_enum)]
     pub format: Option<Format>,
 
+    /// The same as --format html: one page with the model and a viewer in it
+    #[arg(long, conflicts_with = "format")]
+    pub html: bool,
+
+    /// Puts everything into one file: the numbers of a .gltf, the images of an Inventor text made
+    /// of glTF; else they go into files beside it
+    #[arg(long)]
+    pub embed: bool,
+
     /// Writes all messages, losses and sizes as one JSON document
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
@@ -82,6 +95,15 @@ pub struct Args {
     #[arg(long, value_name = "DIR", value_parser = folder)]
     pub search: Vec<PathBuf>,
 
+    /// Largest distance between triangles and the NURBS they stand for, in units of the scene
+    /// [default: by the shape's size and Complexity]
+    #[arg(long, value_name = "TOLERANCE", value_parser = convert::command::model::chord)]
+    pub chord: Option<f64>,
+    /// Sets text in this computer's fonts where it has those that a model names; the output then
+    /// depends on the computer
+    #[arg(long)]
+    pub system_fonts: bool,
+
     /// Leaves out Inventor's own values that glTF has no place for
     #[arg(long)]
     pub no_extras: bool,
@@ -92,9 +114,6 @@ pub struct Args {
     #[arg(long, conflicts_with = "no_extras")]
     pub round_trip: bool,
 
-    /// Puts images into an Inventor text made of glTF, instead of files beside it
-    #[arg(long)]
-    pub embed: bool,
     #[command(flatten)]
     pub choices: Choices,
 
@@ -104,8 +123,8 @@ pub struct Args {
 
     /// Shows what is in the inputs and writes no files
     #[arg(long, conflicts_with_all = [
-        "output", "out_dir", "format", "report", "timings", "strict", "no_extras", "round_trip", "embed",
-        "Choices",
+        "output", "out_dir", "format", "report", "timings", "strict", "no_extras", "round_trip",
+        "html", "embed", "Choices",
     ])]
     pub info: bool,
 
@@ -121,6 +140,8 @@ pub enum Format {
     Glb,
     /// glTF 2.0 as JSON text with its numbers in a .bin file beside it
     Gltf,
+    /// A page that shows the model in any browser, offline
+    Html,
     /// Inventor text: of Inventor laid out anew, of glTF made anew
     Iv,
 }
@@ -131,6 +152,7 @@ impl Format {
         match self {
             Self::Glb => "glb",
             Self::Gltf => "gltf",
+            Self::Html => "html",
             Self::Iv => "iv",
         }
     }
@@ -138,7 +160,7 @@ impl Format {
     /// The format whose extension `path` has.
     pub fn of_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?;
-        let all = [Self::Glb, Self::Gltf, Self::Iv];
+        let all = [Self::Glb, Self::Gltf, Self::Html, Self::Iv];
         all.into_iter()
             .find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
@@ -157,20 +179,37 @@ impl Args {
     ///
     /// `--format` and the extension of `-o` contradict each other, or neither says a format.
     pub fn format(&self) -> Result<Format, String> {
+        let asked = if self.html {
+            Some(Format::Html)
+        } else {
+            self.format
+        };
         let Some(output) = &self.output else {
-            return Ok(self.format.unwrap_or(Format::Glb));
+            return self.embeddable(asked.unwrap_or(Format::Glb));
         };
         let shown = output.display();
-        match (self.format, Format::of_path(output)) {
+        match (asked, Format::of_path(output)) {
             (Some(asked), Some(named)) if asked != named => Err(format!(
                 "--format {} does not fit the extension of `{shown}`",
                 asked.extension()
             )),
-            (Some(format), _) | (None, Some(format)) => Ok(format),
+            (Some(format), _) | (None, Some(format)) => self.embeddable(format),
             (None, None) => Err(format!(
-                "`{shown}` ends in none of .glb, .gltf and .iv; give --format"
+                "`{shown}` ends in none of .glb, .gltf, .html and .iv; give --format"
             )),
         }
+    }
+}
+
+impl Args {
+    /// `--embed` goes with .gltf and .iv.
+    fn embeddable(&self, format: Format) -> Result<Format, String> {
+        if self.embed && !matches!(format, Format::Gltf | Format::Iv) {
+            return Err(
+                "--embed is for .gltf and .iv; .glb and .html hold all in one file".to_owned(),
+            );
+        }
+        Ok(format)
     }
 }
 

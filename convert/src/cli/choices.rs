@@ -1,9 +1,9 @@
 //! The arguments that choose how a glTF is made. docs/OPTIONS.md says what each costs.
 
 use clap::{Args, ValueEnum};
-use convert::{Options, Quantize, Weld};
+use convert::{Lights, Materials, Options, Quantize, TextureFormat, Up, Weld};
 
-use super::length::Length;
+use super::length::{Length, Unit};
 
 /// Tolerance of `--quantize` alone.
 const DEFAULT_TOLERANCE: &str = "0.1mm";
@@ -11,9 +11,30 @@ const DEFAULT_TOLERANCE: &str = "0.1mm";
 const DEFAULT_NORMAL_TOLERANCE: f64 = 0.5;
 
 /// How a glTF is made.
-#[derive(Args, Clone, Debug, Default)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "How the glTF is made")]
 pub struct Choices {
+    /// Which axis of the model points upwards; z turns the model so that glTF viewers, for which
+    /// that is +Y, show it upright
+    #[arg(long, value_enum, value_name = "AXIS", default_value = "y")]
+    pub up: Axis,
+
+    /// Unit of the model's lengths; the model is scaled to metres, as glTF has it
+    #[arg(long, value_enum, value_name = "UNIT", default_value = "m")]
+    pub units: Unit,
+
+    /// What becomes of materials
+    #[arg(long, value_enum, value_name = "LOOK", default_value = "fidelity")]
+    pub materials: MaterialChoice,
+
+    /// Unit of the lights' intensity
+    #[arg(long, value_enum, value_name = "UNIT", default_value = "unitless")]
+    pub lights: LightChoice,
+
+    /// Format of images
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "keep")]
+    pub textures: TextureChoice,
+
     /// Vertices that are stored alike are one; this is the default
     #[arg(long, overrides_with = "no_weld")]
     pub weld: bool,
@@ -25,6 +46,10 @@ pub struct Choices {
     /// Puts triangles and vertices in an order that graphics devices draw fast
     #[arg(long)]
     pub optimize: bool,
+
+    /// Makes one node of copies of a part below one node (EXT_mesh_gpu_instancing)
+    #[arg(long)]
+    pub instancing: bool,
 
     /// Compresses the numbers of meshes; includes --optimize
     #[arg(long, value_enum, value_name = "CODEC")]
@@ -45,6 +70,46 @@ pub struct Choices {
     pub normal_tolerance: f64,
 }
 
+/// What `--up` names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Axis {
+    /// Nothing is turned: so Inventor's own cameras have it
+    Y,
+    /// As most CAD systems have it
+    Z,
+}
+
+/// What `--materials` names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MaterialChoice {
+    /// Highlights as in Inventor (KHR_materials_specular, KHR_materials_ior)
+    Fidelity,
+    /// Colour and roughness alone, without extensions
+    Simple,
+    /// Colours as they are, without light (KHR_materials_unlit)
+    Unlit,
+}
+
+/// What `--lights` names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LightChoice {
+    /// For viewers without exposure: intensity 1 makes a white surface white
+    Unitless,
+    /// Lux and candela, for renderers with exposure: 683 times as much
+    Physical,
+}
+
+/// What `--textures` names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TextureChoice {
+    /// PNG and JPEG files stay byte for byte, all else becomes PNG
+    Keep,
+    /// All become PNG
+    Png,
+    /// Lossless WebP where that is smaller (EXT_texture_webp)
+    Webp,
+}
+
 /// What `--compress` does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Compression {
@@ -55,12 +120,33 @@ pub enum Compression {
 impl Choices {
     /// These options as the user wants them.
     pub fn apply(&self, options: Options) -> Options {
-        let metre = 1.0;
+        let metres_per_unit = self.units.metres();
         let quantize = self.quantize.then(|| Quantize {
-            tolerance: self.tolerance.map_or(0.0, |length| length.metres(metre)),
+            tolerance: self
+                .tolerance
+                .map_or(0.0, |length| length.metres(metres_per_unit)),
             normal_tolerance_rad: self.normal_tolerance.to_radians(),
         });
         Options {
+            up: match self.up {
+                Axis::Y => Up::Y,
+                Axis::Z => Up::Z,
+            },
+            metres_per_unit,
+            materials: match self.materials {
+                MaterialChoice::Fidelity => Materials::Fidelity,
+                MaterialChoice::Simple => Materials::Simple,
+                MaterialChoice::Unlit => Materials::Unlit,
+            },
+            lights: match self.lights {
+                LightChoice::Unitless => Lights::Unitless,
+                LightChoice::Physical => Lights::Physical,
+            },
+            textures: match self.textures {
+                TextureChoice::Keep => TextureFormat::Keep,
+                TextureChoice::Png => TextureFormat::Png,
+                TextureChoice::Webp => TextureFormat::Webp,
+            },
             weld: if self.no_weld {
                 Weld::Apart
             } else {
@@ -69,6 +155,7 @@ impl Choices {
             optimize: self.optimize,
             quantize,
             compress: self.compress.is_some(),
+            instancing: self.instancing,
             ..options
         }
     }

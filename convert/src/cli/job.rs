@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use convert::command::messages::{file_of, image_left_out};
-use convert::command::{atomic, bytes, model};
+use convert::command::{atomic, bytes, fonts, model};
 use convert::{Container, Loss, Options, Recorder, Report};
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use scenegraph::{Loader, ResolveOptions, Resolved};
@@ -30,6 +30,9 @@ pub struct Settings {
     pub round_trip: bool,
     /// Images go into an Inventor text.
     pub embed: bool,
+    resolve: ResolveOptions,
+    /// Text is set in fonts of the system.
+    system_fonts: bool,
 }
 
 impl Settings {
@@ -38,7 +41,9 @@ impl Settings {
         let format = args.format().ok();
         let options = Options {
             container: match format {
+                Some(Format::Gltf) if args.embed => Container::GltfEmbedded,
                 Some(Format::Gltf) => Container::GltfBin,
+                Some(Format::Html) => Container::Html,
                 _ => Container::Glb,
             },
             extras: !args.no_extras,
@@ -52,6 +57,11 @@ impl Settings {
             search: args.search.clone(),
             round_trip: args.round_trip,
             embed: args.embed,
+            resolve: ResolveOptions {
+                chord: args.chord,
+                ..ResolveOptions::default()
+            },
+            system_fonts: args.system_fonts,
         }
     }
 }
@@ -120,7 +130,7 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
     outcome.failure = target
         .and_then(|(path, format)| match format {
             Format::Iv => to_inventor(&mut outcome, path, settings),
-            Format::Glb | Format::Gltf => to_gltf(&mut outcome, path, settings),
+            Format::Glb | Format::Gltf | Format::Html => to_gltf(&mut outcome, path, settings),
         })
         .err();
     outcome.time = start.elapsed();
@@ -155,7 +165,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     let recorder = Recorder::new(&files, &folder);
     let keep = settings.round_trip;
     let loader: &dyn Loader = if keep { &recorder } else { &files };
-    let (resolved, text) = resolved(outcome, loader, keep)?;
+    let (resolved, text) = resolved(outcome, loader, settings)?;
     let scene = resolved.scene;
     atomic::make_folder_of(path)?;
     let report = match text {
@@ -187,7 +197,7 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
 fn resolved(
     outcome: &mut Outcome,
     loader: &dyn Loader,
-    keep: bool,
+    settings: &Settings,
 ) -> Result<(Resolved, Option<bytes::Bytes>), String> {
     let bytes = bytes::read(&outcome.input)?;
     outcome.bytes_in = bytes.len() as u64;
@@ -195,12 +205,15 @@ fn resolved(
         return Err(from_gltf::IS_GLTF.to_owned());
     }
     let mut graph = model::graph(&bytes, &outcome.input, loader);
-    let text = keep.then_some(bytes);
+    let text = settings.round_trip.then_some(bytes);
     outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
     if model::is_unsupported(&outcome.diagnostics) {
         return Err(UNSUPPORTED.to_owned());
     }
-    let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
+    if settings.system_fonts {
+        fonts::add_system_fonts(&mut graph);
+    }
+    let mut resolved = scenegraph::resolve(&graph, &settings.resolve);
     outcome.diagnostics.append(&mut resolved.diagnostics);
     Ok((resolved, text))
 }

@@ -110,7 +110,7 @@ fn show(args: &Args, inputs: &[Input]) -> u8 {
     pool::run(
         inputs.len(),
         args.jobs(),
-        |i| info::of(&inputs[i], &args.search),
+        |i| info::of(&inputs[i], args),
         |event| match event {
             Event::Tick { finished } => screen.tick(finished),
             Event::Next { index, result } => {

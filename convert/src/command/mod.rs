@@ -3,6 +3,7 @@
 
 pub mod atomic;
 pub mod bytes;
+pub mod fonts;
 pub mod json;
 pub mod messages;
 pub mod model;

@@ -27,6 +27,18 @@ pub fn canonical_folder_of(path: &Path) -> PathBuf {
     folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
 
+/// A tolerance as the user gives it.
+///
+/// # Errors
+///
+/// It is not a positive number.
+pub fn chord(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|v: &f64| *v > 0.0 && v.is_finite())
+        .ok_or_else(|| "it is a distance, a number above 0".to_owned())
+}
+
 /// Whether the input itself, not a file it includes, is of a format that is not read.
 pub fn is_unsupported(diagnostics: &[Diagnostic]) -> bool {
     diagnostics

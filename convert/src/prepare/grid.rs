@@ -1,8 +1,8 @@
 //! The grid that positions are rounded to.
 //!
 //! A point is at most half a step away from the grid along each axis, so at most √3/2 steps in
-//! all. The step is the largest number of three significant bits with which that is within the
-//! tolerance: its multiples are exact in f32 and f64, and it is at most a quarter finer than need
+//! all. The step is the largest number of six significant bits with which that is within the
+//! tolerance: its multiples are exact in f32 and f64, and it is at most 1/32 finer than need
 //! be. A mesh that its instances stretch gets a grid finer by as much.
 //!
 //! All meshes that are not stretched share one step. Where a mesh's first instance is only moved,
@@ -14,17 +14,16 @@ use glam::{DAffine3, DMat3, DVec3};
 use scenegraph::scene::{Mesh, Scene};
 
 use crate::formats::Positions;
+use crate::frame::{STRETCH_TOLERANCE, stretch};
 
-/// Stretches as near to 1 as this are rotations that went through f32.
-const SAME_SCALE: f64 = 1e-6;
 /// Finest and coarsest step: so that multiples of it stay normal, finite f32.
 const STEP_RANGE: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 /// Farthest grid line from the origin: adding [`ROUND`] rounds below it.
 const MAX_LINE: f64 = (1_u64 << 50) as f64;
 /// Adding and subtracting it rounds to the nearest whole number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// Most steps that are exact in f32 with the three bits of a step.
-const MAX_F32_STEPS: f64 = (1_u32 << 21) as f64;
+/// Most steps that are exact in f32 with the six bits of a step.
+const MAX_F32_STEPS: f64 = (1_u32 << 18) as f64;
 
 /// What the step costs as the scale of a node, in bytes of text.
 const SCALE_BYTES: u64 = 64;
@@ -39,9 +38,9 @@ pub(crate) struct Frame {
     instances: u64,
 }
 
-/// The frame of each mesh; `None` where there is no instance.
-pub(crate) fn frames(scene: &Scene) -> Vec<Option<Frame>> {
-    let mut frames: Vec<Option<Frame>> = vec![None; scene.meshes.len()];
+/// The frame of each of the scene's `meshes` meshes; `None` where there is no instance.
+pub(crate) fn frames(scene: &Scene, meshes: usize) -> Vec<Option<Frame>> {
+    let mut frames: Vec<Option<Frame>> = vec![None; meshes];
     for instance in &scene.instances {
         let world_from_local = &instance.placement.world_from_local;
         let stretch = stretch(&world_from_local.matrix3);
@@ -70,31 +69,16 @@ fn moved_by(world_from_local: &DAffine3) -> DVec3 {
     }
 }
 
-/// A bound of the largest singular value: the root of the largest sum of a row of MᵀM, which is
-/// exact for turned and then scaled axes.
-fn stretch(linear: &DMat3) -> f64 {
-    let squares = linear.transpose() * *linear;
-    let rows = squares.transpose();
-    let sum = |row: DVec3| row.abs().element_sum();
-    let largest = sum(rows.x_axis).max(sum(rows.y_axis)).max(sum(rows.z_axis));
-    let stretch = largest.sqrt();
-    if (stretch - 1.0).abs() <= SAME_SCALE {
-        1.0
-    } else {
-        stretch
-    }
-}
-
-/// The largest step of three bits within a tolerance; `None` if there is none that f32 can tell.
+/// The largest step of six bits within a tolerance; `None` if there is none that f32 can tell.
 fn step_within(tolerance: f64) -> Option<f64> {
     // As much less as stretches are taken for 1, and roundings.
-    let largest = tolerance * (1.0 - 2.0 * SAME_SCALE) * 2.0 / 3.0_f64.sqrt();
+    let largest = tolerance * (1.0 - 2.0 * STRETCH_TOLERANCE) * 2.0 / 3.0_f64.sqrt();
     if !STEP_RANGE.contains(&largest) {
         return None;
     }
     let binade = largest.log2().floor().exp2();
-    let quarters = (largest / binade * 4.0).floor();
-    Some(quarters * 0.25 * binade)
+    let parts = (largest / binade * 32.0).floor();
+    Some(parts / 32.0 * binade)
 }
 
 /// Puts positions on the grid, and gives the form that takes least room: floats where integers do

@@ -1,18 +1,20 @@
-//! The scene as the options want it stored, before anything is planned: vertices shared, cut apart
-//! or put in order, positions on a grid.
+//! The scene as the options want it stored, before anything is planned: turned upright and measured
+//! in metres, vertices shared, cut apart or put in order, positions on a grid.
 //!
 //! Without such options the scene is taken as it is, and nothing is copied.
 
 mod grid;
 mod vertices;
+mod world;
 
 use std::borrow::Cow;
 
 use scenegraph::scene::{Mesh, Scene};
 
 use crate::formats::{Colors, Formats, Normals, Texcoords};
+use crate::instancing::TOLERANCE_SHARE;
 use crate::parallel;
-use crate::{Error, Options, Quantize, Weld, sound};
+use crate::{Error, Options, Quantize, Up, Weld, sound};
 
 /// A scene ready to be planned.
 pub(crate) struct Prepared<'s> {
@@ -27,15 +29,17 @@ impl<'s> Prepared<'s> {
     /// [`Error::Scene`] if the scene breaks one of its guarantees.
     pub(crate) fn new(scene: &'s Scene, options: &Options) -> Result<Self, Error> {
         sound::check(scene)?;
-        if !touches_meshes(options) {
+        if options.up == Up::Y && options.metres_per_unit == 1.0 && !touches_meshes(options) {
             return Ok(Self {
                 formats: vec![Formats::default(); scene.meshes.len()],
                 scene: Cow::Borrowed(scene),
             });
         }
         check_indices(scene)?;
+        let mut turned = with_meshes(scene, Vec::new());
+        world::turn(&mut turned, options);
         let frames = match options.quantize {
-            Some(_) => grid::frames(scene),
+            Some(_) => grid::frames(&turned, scene.meshes.len()),
             None => vec![None; scene.meshes.len()],
         };
         let made = parallel::map(scene.meshes.len(), options.threads, |i| {
@@ -43,9 +47,10 @@ impl<'s> Prepared<'s> {
             let formats = arrange(&mut mesh, frames[i].as_ref(), options);
             (mesh, formats)
         });
-        let (meshes, formats) = made.into_iter().unzip();
+        let formats;
+        (turned.meshes, formats) = made.into_iter().unzip();
         Ok(Self {
-            scene: Cow::Owned(with_meshes(scene, meshes)),
+            scene: Cow::Owned(turned),
             formats,
         })
     }
@@ -84,12 +89,13 @@ fn with_meshes(scene: &Scene, meshes: Vec<Mesh>) -> Scene {
         light_sets: scene.light_sets.clone(),
         environments: scene.environments.clone(),
         files: scene.files.clone(),
+        texts: scene.texts.clone(),
     }
 }
 
 fn arrange(mesh: &mut Mesh, frame: Option<&grid::Frame>, options: &Options) -> Formats {
     let formats = match (&options.quantize, frame) {
-        (Some(quantize), Some(frame)) => quantized(mesh, frame, quantize, options.compress),
+        (Some(quantize), Some(frame)) => quantized(mesh, frame, quantize, options),
         _ => Formats::default(),
     };
     match options.weld {
@@ -105,11 +111,23 @@ fn arrange(mesh: &mut Mesh, frame: Option<&grid::Frame>, options: &Options) -> F
     formats
 }
 
-fn quantized(mesh: &mut Mesh, frame: &grid::Frame, quantize: &Quantize, compress: bool) -> Formats {
+fn quantized(
+    mesh: &mut Mesh,
+    frame: &grid::Frame,
+    quantize: &Quantize,
+    options: &Options,
+) -> Formats {
     let angle_rad = quantize.normal_tolerance_rad;
+    // The rounding of copies' frames takes the rest.
+    let share = if options.instancing {
+        TOLERANCE_SHARE
+    } else {
+        0.0
+    };
+    let tolerance = quantize.tolerance * (1.0 - share);
     Formats {
-        positions: grid::snap(mesh, frame, quantize.tolerance),
-        normals: if compress {
+        positions: grid::snap(mesh, frame, tolerance),
+        normals: if options.compress {
             Normals::compressed_within(angle_rad)
         } else {
             Normals::within(angle_rad)

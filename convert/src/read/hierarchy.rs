@@ -11,7 +11,7 @@ use gltf::json::Node as JsonNode;
 use iv_parser::SourcePos;
 use scenegraph::scene::{
     Camera, Environment, EnvironmentId, Instance, Light, LightSetId, MaterialId, MeshId, Node,
-    NodeId, Placement,
+    NodeId, Placement, Text,
 };
 
 use super::budget::Budget;
@@ -41,6 +41,7 @@ pub(crate) struct Walk<'a> {
     pub(crate) light_sets: usize,
     pub(crate) nodes: Vec<Node>,
     pub(crate) instances: Vec<Instance>,
+    pub(crate) texts: Vec<Text>,
     /// With the number of each in the file.
     pub(crate) lights: Vec<(usize, Light)>,
     pub(crate) cameras: Vec<(usize, Camera)>,
@@ -82,6 +83,7 @@ impl<'a> Walk<'a> {
             light_sets: 0,
             nodes: Vec::new(),
             instances: Vec::new(),
+            texts: Vec::new(),
             lights: Vec::new(),
             cameras: Vec::new(),
             classes: vec![GROUP_CLASS.into()],
@@ -145,6 +147,10 @@ impl<'a> Walk<'a> {
             .filter_map(|note| Some(note.as_str()?.into()))
             .collect();
         let says_more = !notes.is_empty() || iv.word("type").is_some();
+        // The words of a text belong to one shape; of several it is not known to which.
+        if let ([Item::Shape(..)], [_]) = (&*items, &*copies) {
+            self.text(&iv);
+        }
         let mut placement = Placement {
             node: open.parent,
             parent_from_local,
@@ -286,6 +292,19 @@ impl<'a> Walk<'a> {
             }
         }
         Ok(())
+    }
+
+    /// What the instance about to be added spells, if anything.
+    fn text(&mut self, iv: &Iv) {
+        let strings = iv.list("string").iter();
+        let strings: Vec<Arc<str>> = strings.filter_map(|s| Some(s.as_str()?.into())).collect();
+        if !strings.is_empty() {
+            self.texts.push(Text {
+                instance: self.instances.len() as u32,
+                strings,
+                faces_viewer: iv.flag("facesViewer"),
+            });
+        }
     }
 
     /// One text for each class name.

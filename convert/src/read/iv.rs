@@ -44,6 +44,10 @@ impl Iv {
         self.0.get(key)?.as_str()
     }
 
+    pub(crate) fn flag(&self, key: &str) -> bool {
+        self.0.get(key).and_then(Value::as_bool).unwrap_or(false)
+    }
+
     pub(crate) fn index(&self, key: &str) -> Option<usize> {
         self.0.get(key)?.as_u64()?.try_into().ok()
     }

@@ -52,8 +52,8 @@ pub struct Model {
     pub scene: Scene,
     /// What was left out.
     pub warnings: Vec<String>,
-    /// Written by [`write_glb`](crate::write_glb) or its kin, with extras: up is as it was in the
-    /// Inventor model. glTF of others has +Y up.
+    /// Written by [`write_glb`](crate::write_glb) or its kin, with extras and not turned: up is as it
+    /// was in the Inventor model. All other glTF has +Y up.
     pub is_from_inventor: bool,
 }
 
@@ -75,7 +75,9 @@ pub fn read_gltf(
     let mut budget = Budget::new(*limits);
     budget.grow(bytes.len() as u64)?;
     let buffers = Buffers::new(&document, beside, loader, &mut budget)?;
-    let by_ivory = Iv::of(&document.root.asset.extras).is_some();
+    let asset = Iv::of(&document.root.asset.extras);
+    let by_ivory = asset.is_some();
+    let turned = asset.is_some_and(|asset| asset.word("up") == Some("Y"));
     let textures = Textures::new(&document, beside);
     let materials = Materials::new(&document, by_ivory, textures);
     let mut walk = Walk::new(&document, &buffers, by_ivory, materials, budget);
@@ -110,13 +112,14 @@ pub fn read_gltf(
         cameras: walk.cameras.into_iter().map(|(_, camera)| camera).collect(),
         light_sets,
         environments: walk.environments,
+        texts: walk.texts,
         files: vec![name.into()],
     };
     debug_assert_eq!(scene.check(), Vec::new());
     Ok(Model {
         scene,
         warnings,
-        is_from_inventor: by_ivory,
+        is_from_inventor: by_ivory && !turned,
     })
 }
 

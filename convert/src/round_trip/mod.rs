@@ -8,24 +8,30 @@
 
 mod archive;
 mod edits;
+mod patch;
 mod paths;
 mod recorder;
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use scenegraph::ResolveOptions;
+use iv_parser::Encoding;
 use scenegraph::scene::Scene;
+use scenegraph::{RegistryLayout, ResolveOptions, legal_name};
 
 pub(crate) use archive::{Archive, Content, Unpacked};
 pub use recorder::Recorder;
 
+use crate::plan::Origins;
+use crate::prepare::Prepared;
 use crate::read::{Objects, ReadError, ReadLimits, carried_source};
 use crate::to_inventor::{Input, InventorFiles, Note};
-use crate::{Container, Error, Options, Report, write_file, write_glb};
+use crate::{Container, Error, Options, Plan, Report, write_file, write_glb};
 use archive::crc;
 use edits::Edits;
+use patch::Materials;
 
 /// As [`write_file`], with the source in the file: `text`, the bytes of the model, and what it read
 /// by way of `recorder`. Takes the time of two conversions, and memory for a `.glb` besides.
@@ -195,12 +201,118 @@ pub(crate) fn back(input: &Input<'_>) -> Result<Back, ReadError> {
         return Ok(Back::Source(unedited(input, &carried)));
     }
     let changed = edits.summary();
-    Ok(Back::No(Some(Note {
-        code: "edited",
-        message: format!("the file was edited ({changed}): its text is made anew of what it shows"),
-        hint: "comments, unknown nodes and all that is not shown are left out",
-        is_loss: true,
-    })))
+    // Images of the file stand in for those of the source, so that they do not tell.
+    if original.glb != carried.archive.glb && carried.images_edited.is_empty() {
+        let why = "this version converts it otherwise, so that what was edited cannot be known";
+        return Ok(Back::No(Some(unusable(why))));
+    }
+    let patched = match edits.structure {
+        Some(_) => Err("its parts are others".to_owned()),
+        None => with_edits(input, &carried, &edited, &changed),
+    };
+    match patched {
+        Ok(files) => Ok(Back::Source(files)),
+        Err(why) => Ok(Back::No(Some(Note {
+            code: "edited",
+            message: format!(
+                "what was edited ({changed}) has no place in the source's text ({why}): the text \
+                 is made anew of what the file shows"
+            ),
+            hint: "comments, unknown nodes and all that is not shown are left out",
+            is_loss: true,
+        }))),
+    }
+}
+
+/// The source with the edits in it; says why that cannot be.
+fn with_edits(
+    input: &Input<'_>,
+    carried: &Carried,
+    edited: &Objects,
+    changed: &str,
+) -> Result<InventorFiles, String> {
+    let limits = &input.options.limits;
+    let text = as_ascii(carried.archive.root());
+    let parsed = iv_parser::parse(&text);
+    let was = again(&carried.files, &text, limits)?;
+    let edits = Edits::between(&was.objects, edited);
+    // An edited image whose name is taken gets another one.
+    let mut names = BTreeMap::new();
+    for path in &carried.images_edited {
+        if (input.existing)(path).is_some() {
+            names.insert(path.clone(), free_name(path, input.existing));
+        }
+    }
+    let attempt = |materials| {
+        let patched = patch::patch(&parsed.tree, &was, edited, &edits, &names, materials)?;
+        let now = Unpacked {
+            files: (carried.files.files.iter())
+                .map(|(path, bytes)| {
+                    let new = patched.renamed_images.get(path).unwrap_or(path);
+                    (new.clone(), Arc::clone(bytes))
+                })
+                .collect(),
+        };
+        let result = again(&now, &patched.text, limits)?;
+        let left = not_arrived(&result.objects, edited);
+        match left.is_empty() {
+            true => Ok((patched, now)),
+            false => Err(format!("{} would not arrive", left.summary())),
+        }
+    };
+    let first = attempt(Materials::Nodes);
+    let (patched, now) = match first {
+        Err(_) if !edits.materials.is_empty() => attempt(Materials::Shapes)?,
+        other => other?,
+    };
+    let mut files = InventorFiles {
+        text: patched.text,
+        ..InventorFiles::default()
+    };
+    files.note(
+        "edited",
+        format!("the text is that of the source, with what was edited: {changed}"),
+        "",
+        false,
+    );
+    beside(input, &now, &mut files);
+    Ok(files)
+}
+
+/// What a file has and the converted result has not; names as Inventor can write them.
+fn not_arrived(result: &Objects, wanted: &Objects) -> Edits {
+    let mut left = Edits::between(result, wanted);
+    left.names.retain(|&(at, to)| {
+        let name = wanted.nodes[to].name.as_deref().and_then(legal_name);
+        name.as_deref() != result.nodes[at].name.as_deref()
+    });
+    left
+}
+
+/// A text as ASCII; one that is so already stays as it is.
+fn as_ascii(text: &[u8]) -> Vec<u8> {
+    let parsed = iv_parser::parse(text);
+    if parsed.tree.header.encoding == Encoding::Ascii {
+        return text.to_vec();
+    }
+    let mut printed = Vec::new();
+    match iv_parser::print(&parsed.tree, &RegistryLayout, &mut printed) {
+        Ok(()) => printed,
+        Err(_) => text.to_vec(),
+    }
+}
+
+/// A path beside `path` that nothing has.
+fn free_name(path: &str, existing: &dyn Fn(&str) -> Option<Vec<u8>>) -> String {
+    let (stem, extension) = match path.rsplit_once('.') {
+        Some((stem, extension)) if !extension.contains('/') => (stem, format!(".{extension}")),
+        _ => (path, String::new()),
+    };
+    let name = |number: u32| format!("{stem}-{number}{extension}");
+    let mut free = (2..u32::MAX)
+        .map(name)
+        .filter(|name| existing(name).is_none());
+    free.next().unwrap_or_else(|| path.to_owned())
 }
 
 fn unusable(why: &str) -> Note {
@@ -215,6 +327,7 @@ fn unusable(why: &str) -> Note {
 /// A source converted again.
 pub(crate) struct Again {
     pub(crate) scene: Scene,
+    pub(crate) origins: Origins,
     pub(crate) objects: Objects,
     pub(crate) glb: (u32, u64),
 }
@@ -223,10 +336,17 @@ pub(crate) struct Again {
 fn again(files: &Unpacked, text: &[u8], limits: &ReadLimits) -> Result<Again, String> {
     let graph = scenegraph::load(text, "source.iv", Path::new(""), files);
     let scene = scenegraph::resolve(&graph, &ResolveOptions::default()).scene;
-    let glb = plain_glb(&scene, &Options::default(), files).map_err(|e| e.to_string())?;
+    let options = Options::default();
+    let prepared = Prepared::new(&scene, &options).map_err(|e| e.to_string())?;
+    let plan = Plan::new(&prepared, &options, files).map_err(|e| e.to_string())?;
+    let mut glb = Vec::new();
+    plan.write_glb(&mut glb).map_err(|e| e.to_string())?;
     let objects = Objects::read(&glb, Path::new(""), files, limits).map_err(|e| e.to_string())?;
+    let origins = plan.origins();
+    drop(plan);
     Ok(Again {
         scene,
+        origins,
         objects,
         glb: (crc(&glb), glb.len() as u64),
     })
@@ -244,13 +364,13 @@ fn unedited(input: &Input<'_>, carried: &Carried) -> InventorFiles {
         "",
         false,
     );
-    beside(input, carried, &mut files);
+    beside(input, &carried.files, &mut files);
     files
 }
 
 /// Adds what the source refers to, as far as it is not there. Nothing is written over.
-fn beside(input: &Input<'_>, carried: &Carried, files: &mut InventorFiles) {
-    for (path, bytes) in carried.files.files.iter().skip(1) {
+fn beside(input: &Input<'_>, source: &Unpacked, files: &mut InventorFiles) {
+    for (path, bytes) in source.files.iter().skip(1) {
         match (input.existing)(path) {
             None => files.beside.push((path.clone(), Arc::clone(bytes))),
             Some(found) if *found == **bytes => {}

@@ -1,6 +1,6 @@
 //! Accessors of any form as f64, by the words of the glTF specification and `KHR_mesh_quantization`.
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 use serde_json::Value;
 
 use crate::read::{Converted, numbers};
@@ -83,11 +83,38 @@ pub fn corners(converted: &Converted) -> Vec<Vec<Corner>> {
     let mut all = Vec::new();
     for placed in converted.placed_with("/mesh") {
         let mesh = converted.nodes()[placed.index]["mesh"].as_u64().unwrap() as usize;
-        for primitive in json["meshes"][mesh]["primitives"].as_array().unwrap() {
-            all.push(corners_of(json, bin, primitive, &placed.world_from_local));
+        for copy in copies(json, bin, &converted.nodes()[placed.index]) {
+            let at = placed.world_from_local * copy;
+            for primitive in json["meshes"][mesh]["primitives"].as_array().unwrap() {
+                all.push(corners_of(json, bin, primitive, &at));
+            }
         }
     }
     all
+}
+
+/// `EXT_mesh_gpu_instancing`.
+fn copies(json: &Value, bin: &[u8], node: &Value) -> Vec<DAffine3> {
+    let attributes = &node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    let attribute = |name: &str| {
+        let index = attributes[name].as_u64();
+        index.map(|index| elements(json, bin, index as usize))
+    };
+    let Some(translations) = attribute("TRANSLATION") else {
+        return vec![DAffine3::IDENTITY];
+    };
+    let (rotations, scales) = (attribute("ROTATION"), attribute("SCALE"));
+    let frame = |i: usize| {
+        let scale = scales
+            .as_ref()
+            .map_or(DVec3::ONE, |s| DVec3::from_slice(&s[i]));
+        let rotation = rotations
+            .as_ref()
+            .map_or(DQuat::IDENTITY, |r| DQuat::from_slice(&r[i]));
+        let translation = DVec3::from_slice(&translations[i]);
+        DAffine3::from_scale_rotation_translation(scale, rotation.normalize(), translation)
+    };
+    (0..translations.len()).map(frame).collect()
 }
 
 fn corners_of(json: &Value, bin: &[u8], primitive: &Value, at: &DAffine3) -> Vec<Corner> {

@@ -5,10 +5,12 @@
 // Helpers of tests stop a test as an assertion does.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod choices;
 mod containers;
 mod decode;
 mod hierarchy;
 mod hostile;
+mod instancing;
 mod lights_cameras;
 mod losses;
 mod materials;

@@ -19,7 +19,7 @@ use super::surface::Surface;
 use super::{Fineness, MAX_POLYLINE_POINTS, MAX_VERTEX_WORK, NurbsError};
 
 /// How much finer than the chord asks for the turn may divide.
-const MOST_BY_TURN: f64 = 8.0;
+const MOST_BY_TURN: f64 = 16.0;
 
 /// A part of a span of one parameter.
 #[derive(Clone, Copy, Debug)]

@@ -78,7 +78,7 @@ pub struct Fineness {
     pub chord: f64,
     /// The largest angle, in radians, that the control polygon of a span turns by for each of its
     /// parts, so that small round parts of large shapes look round; infinite to let the chord
-    /// alone decide. Never divides a span more than eight times as finely as the chord asks for.
+    /// alone decide. Never divides a span more than 16 times as finely as the chord asks for.
     pub turn_rad: f64,
 }
 

@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use iv_parser::{Diagnostic, Header, SourcePos};
 
+use crate::font::AddedFont;
 use crate::registry::Class;
 
 pub use value::FieldValue;
@@ -75,6 +76,8 @@ pub struct Graph {
     pub root: NodeId,
     /// The files read; the first is the one asked for.
     pub files: Vec<SourceFile>,
+    /// Fonts that stand at hand besides the built-in ones.
+    pub fonts: Vec<AddedFont>,
     /// What was wrong, file by file, in order of place.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -83,6 +86,15 @@ impl Graph {
     /// A node.
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0 as usize]
+    }
+
+    /// The names of fonts that `Font` and `FontStyle` nodes give, in their order.
+    pub fn font_names(&self) -> impl Iterator<Item = &Arc<str>> {
+        let fonts = (self.nodes.iter())
+            .filter(|node| matches!(node.class(), Some(Class::Font | Class::FontStyle)));
+        fonts
+            .filter(|node| node.entry("name").is_some())
+            .filter_map(|node| node.text("name"))
     }
 
     /// All nodes, in the order in which they were read.

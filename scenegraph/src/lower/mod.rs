@@ -65,6 +65,7 @@ pub fn load_with(
     builder.includes.know_root(name, folder, root);
     builder.complete();
     Graph {
+        fonts: Vec::new(),
         nodes: builder.nodes,
         root,
         files: builder.files,

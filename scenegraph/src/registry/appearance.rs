@@ -114,9 +114,9 @@ ShadowCulling: Node, Kept, [],
     "Culling while shadows are drawn. Coin addition." {
     mode: SFEnum = "AS_IS_CULLING" [AS_IS_CULLING, NO_CULLING];
 }
-Font: Node, Planned, [FONT],
-    "Font of the following text. Size 10 by this node, 12 in Coin and 10 in SGI without any." {}
-FontStyle as Font: Font, Planned, [FONT],
+Font: Node, Full, [FONT],
+    "Font of the following text. Size 10 without any, as in SGI; Coin's is 12." {}
+FontStyle as Font: Font, Full, [FONT],
     "Font with family and style, as in VRML 1." {
     family: SFEnum = "SERIF" [SERIF, SANS, TYPEWRITER];
     style: SFBitMask = "NONE" [NONE = 0, BOLD = 1, ITALIC = 2];

@@ -95,7 +95,7 @@ ProfileCoordinate3: Node, Full, [],
     point: MFVec3f = "0 0 1";
 }
 LinearProfile: Profile, Full, [PROFILE],
-    "Polygon that trims a NURBS surface or shapes Text3." {}
+    "Polygon that trims a NURBS surface or shapes Text3. For Text3 the first of a set counts." {}
 NurbsProfile: Profile, Full, [PROFILE],
     "Curve that trims a NURBS surface or shapes Text3." {
     knotVector: MFFloat = "0";

@@ -54,21 +54,21 @@ IndexedMarkerSet: IndexedPointSet, Partial, [VERTEX_SHAPE, INDEXED],
     "Small pictures at indexed points; drawn as points. Coin and TGS addition." {
     markerIndex: MFInt32 = "0";
 }
-Text2: Shape, Planned, [],
-    "Text that faces the viewer, in screen size." {
+Text2: Shape, Partial, [],
+    "Text that faces the viewer, in pixels; here flat text in the world, as one view shows it." {
     string: MFString = "\"\"";
     spacing: SFFloat = "1";
     justification: SFEnum = "LEFT" in JUSTIFICATION;
 }
-Text3: Shape, Planned, [],
-    "Solid text." {
+Text3: Shape, Full, [],
+    "Solid text, as deep as the profile in force, or 1." {
     string: MFString = "\"\"";
     spacing: SFFloat = "1";
     justification: SFEnum = "LEFT" in JUSTIFICATION;
     parts: SFBitMask = "FRONT" [FRONT = 1, SIDES = 2, BACK = 4, ALL = 7];
 }
-AsciiText: Shape, Planned, [],
-    "Flat text." {
+AsciiText: Shape, Full, [],
+    "Flat text; `width` is the length that a line is stretched to, as in VRML 1. Coin ignores it." {
     string: MFString = "\"\"";
     spacing: SFFloat = "1";
     justification: SFEnum = "LEFT" in JUSTIFICATION;

@@ -8,11 +8,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::graph::NodeId;
 use crate::scene::{
     Camera, Environment, EnvironmentId, Fog, Instance, Light, LightId, LightModel, LightSetId,
-    Material, MaterialId, Mesh, MeshId, Node, Scene, Texture, TextureId,
+    Material, MaterialId, Mesh, MeshId, Node, Scene, Text, Texture, TextureId,
 };
 use crate::shape::Measure;
 
 use super::for_all::ForAll;
+use super::labels;
 use super::state::LightList;
 
 /// What two uses of a material must have in common to share it: all values, bit by bit.
@@ -43,11 +44,14 @@ pub(super) struct Builder {
     environments: FxHashMap<Vec<u64>, EnvironmentId>,
     for_all: ForAll,
     class_names: FxHashSet<Arc<str>>,
+    /// Instances of text that faces the viewer, in pixels.
+    labels: Vec<u32>,
 }
 
 impl Builder {
     pub fn finish(mut self) -> (Scene, Vec<Measure>) {
         self.for_all.apply(&mut self.scene);
+        labels::settle(&mut self.scene, &self.measures, &self.labels);
         (self.scene, self.measures)
     }
 
@@ -87,6 +91,19 @@ impl Builder {
 
     pub fn instance(&mut self, instance: Instance) {
         self.scene.instances.push(instance);
+    }
+
+    /// Says what the last instance spells.
+    pub fn text(&mut self, strings: Vec<Arc<str>>, faces_viewer: bool) {
+        let instance = self.scene.instances.len().saturating_sub(1) as u32;
+        if faces_viewer {
+            self.labels.push(instance);
+        }
+        self.scene.texts.push(Text {
+            instance,
+            strings,
+            faces_viewer,
+        });
     }
 
     /// Adds a light to the scene, and to a list.

@@ -6,6 +6,7 @@
 
 mod builder;
 mod for_all;
+mod labels;
 mod lights;
 mod profiles;
 mod properties;
@@ -66,7 +67,7 @@ pub struct ResolveOptions {
     pub geometry: Geometry,
     /// What Coin's SoCallbackAction makes of a file, where it differs from what is meant, to
     /// compare with it: `DrawStyle` plays no part, polygons are fanned even if they are concave,
-    /// and what stands in nodes of unknown classes is not drawn.
+    /// text in pixels and what stands in nodes of unknown classes is not drawn.
     pub like_coin: bool,
     /// The largest distance, in units of the scene, that segments and triangles may have to the
     /// NURBS curve or surface they stand for, wherever it is placed. Without it each shape's own

@@ -131,6 +131,14 @@ impl Walk<'_> {
                 }
             }
             Class::Environment => self.environment(node),
+            Class::Font | Class::FontStyle => {
+                if !node.is_ignored("name") {
+                    state.font = Some(id);
+                }
+                if !node.is_ignored("size") {
+                    state.font_size = node.number("size");
+                }
+            }
             _ => return false,
         }
         true

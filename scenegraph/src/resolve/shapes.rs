@@ -10,7 +10,10 @@ use crate::scene::{
     Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
     TextureSource, Wrap,
 };
-use crate::shape::{Attributes, Job, Made, MadeFaces, ShapeMaker, is_closed, is_nurbs, is_trimmed};
+use crate::shape::{
+    Attributes, Job, Made, MadeFaces, ShapeMaker, has_profiles, is_closed, is_nurbs,
+    is_screen_text, is_text,
+};
 
 use super::Geometry;
 use super::state::{Ordering, State, Style};
@@ -25,7 +28,9 @@ impl Walk<'_> {
         if !ShapeMaker::knows(class) {
             return false;
         }
-        self.shape_as(class, id, id, None);
+        if !(self.options.like_coin && is_screen_text(class)) {
+            self.shape_as(class, id, id, None);
+        }
         true
     }
 
@@ -38,6 +43,9 @@ impl Walk<'_> {
         placed: NodeId,
         made: Option<&MadeFaces>,
     ) {
+        if self.options.like_coin && is_screen_text(class) {
+            return;
+        }
         let style = if self.options.like_coin {
             Style::Filled
         } else {
@@ -106,19 +114,23 @@ impl Walk<'_> {
                 light_set,
                 environment: state.environment_id,
             });
+            if is_text(class) {
+                let strings = graph.node(id).value("string").texts().to_vec();
+                self.builder.text(strings, is_screen_text(class));
+            }
         }
     }
 
-    /// The profiles that trim a shape; `None` if there are too many.
+    /// The profiles that shape a shape; `None` if there are too many.
     fn profiles_of(&mut self, class: Class, id: NodeId) -> Option<Vec<NodeId>> {
-        if !is_trimmed(class) {
+        if !has_profiles(class) {
             return Some(Vec::new());
         }
         let nodes = self.profiles.nodes(self.state.profiles);
         if nodes.is_none() {
             self.remarks.warn(
                 "bad-nurbs",
-                &format!("{class:?} is trimmed by too many profiles"),
+                &format!("{class:?} has too many profiles"),
                 "it was left out",
                 self.graph.node(id).pos,
             );

@@ -159,6 +159,9 @@ pub struct State {
     pub hints: Hints,
     pub complexity: f64,
     pub draw_style: DrawStyle,
+    /// The `Font` or `FontStyle` that names the font.
+    pub font: Option<NodeId>,
+    pub font_size: f64,
     /// The `Texture2` in force.
     pub texture: Option<NodeId>,
     /// Applied to texture coordinates (s, t, 1).
@@ -209,6 +212,9 @@ impl State {
                 line_pattern: 0xffff,
                 pos: SourcePos::default(),
             },
+            font: None,
+            // SGI's; Coin's is 12.
+            font_size: 10.0,
             texture: None,
             texture_transform: DMat3::IDENTITY,
             lights: LightList::default(),

@@ -68,11 +68,11 @@ pub(super) struct Walk<'g> {
     pub builder: Builder,
     pub remarks: Remarks,
     pub shapes: ShapeMaker,
+    pub profiles: Profiles,
     /// What shared nodes of VRML 2 give by rule.
     pub made: FxHashMap<NodeId, Option<Rc<MadeFaces>>>,
     /// Whether groups have to look for lights of VRML 2.
     pub has_vrml_lights: bool,
-    pub profiles: Profiles,
     /// For each node whether it is the child of several.
     several_parents: Vec<bool>,
     stack: Vec<Open>,
@@ -98,12 +98,12 @@ impl<'g> Walk<'g> {
             builder,
             remarks: Remarks::default(),
             shapes: ShapeMaker::default(),
+            profiles: Profiles::default(),
             made: FxHashMap::default(),
             has_vrml_lights: graph
                 .nodes()
                 .iter()
                 .any(|n| n.class() == Some(Class::VRMLDirectionalLight)),
-            profiles: Profiles::default(),
             several_parents: several_parents(graph),
             stack: Vec::new(),
             frames: Vec::new(),

@@ -25,6 +25,11 @@ impl Scene {
                 format!("node {i}: its transform is not finite")
             });
         }
+        let texts_in_order = self.texts.is_sorted_by(|a, b| a.instance < b.instance);
+        let last = self.texts.last().map_or(0, |t| t.instance as usize + 1);
+        fault(texts_in_order && last <= self.instances.len(), &|| {
+            "texts do not belong to instances in order".to_owned()
+        });
         let mut mesh_used = vec![false; self.meshes.len()];
         let mut material_used = vec![false; self.materials.len()];
         let mut texture_used = vec![false; self.textures.len()];

@@ -9,12 +9,14 @@
 //! - attribute arrays of a mesh are empty or as long as its positions; normals have unit length;
 //! - front faces are counter-clockwise, whatever order the source has;
 //! - meshes, materials and textures are shared by index, and none is unused;
+//! - texts belong to instances in ascending order;
 //! - lights that are off and shapes that are not drawn are not in it.
 
 mod check;
 mod light;
 mod material;
 mod mesh;
+mod text;
 
 pub use check::Fault;
 pub use light::{Camera, Environment, Fog, FogType, Light, LightKind, Projection, ViewportMapping};
@@ -22,6 +24,7 @@ pub use material::{
     Faces, Image, LightModel, Material, Texture, TextureModel, TextureSource, Wrap,
 };
 pub use mesh::{Mesh, Topology};
+pub use text::Text;
 
 use std::sync::Arc;
 
@@ -81,6 +84,8 @@ pub struct Scene {
     pub light_sets: Vec<Vec<LightId>>,
     /// Ambient light, and fog.
     pub environments: Vec<Environment>,
+    /// What instances spell, in their order.
+    pub texts: Vec<Text>,
     /// The files read, by [`SourcePos::file`].
     pub files: Vec<Arc<str>>,
 }

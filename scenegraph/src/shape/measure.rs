@@ -6,10 +6,10 @@ use geometry::bounds::Aabb;
 use crate::registry::Class;
 use crate::remarks::Remarks;
 use crate::resolve::Style;
-use crate::scene::Topology;
+use crate::scene::{Mesh, Topology};
 
 use super::attributes::Attributes;
-use super::{Job, faces, is_nurbs, nurbs, outline, point, primitives};
+use super::{Job, faces, is_nurbs, nurbs, outline, point, primitives, text};
 
 /// How much a shape draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,16 @@ pub struct Measure {
 }
 
 /// The size of a shape; `None` if it draws nothing.
-pub fn measure(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
+pub fn measure(
+    job: &Job<'_>,
+    attributes: &Attributes<'_>,
+    glyphs: &mut text::GlyphCache,
+) -> Option<Measure> {
+    if text::is_text(job.class) {
+        // What is wrong with a shape is said when it is made.
+        let mesh = text::mesh(job, attributes, glyphs, &mut Remarks::default())?;
+        return of_mesh(&outline::styled_primitive(mesh, job.style)?);
+    }
     if matches!(job.style, Style::Lines | Style::Points) {
         match job.class {
             Class::Cube | Class::Sphere | Class::Cone | Class::Cylinder => {
@@ -167,6 +176,17 @@ fn styled_primitive(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measur
     let bounds = primitives::bounds(job.class, attributes)?;
     let mesh = primitives::mesh(job, attributes)?;
     let mesh = outline::styled_primitive(mesh, job.style)?;
+    Some(Measure {
+        topology: mesh.topology,
+        primitives: mesh.primitive_count(),
+        bounds,
+    })
+}
+
+/// The size of what had to be made.
+fn of_mesh(mesh: &Mesh) -> Option<Measure> {
+    let mut bounds = Aabb::EMPTY;
+    (0..mesh.positions.len() as u32).for_each(|i| bounds.include(mesh.p_in_local(i)));
     Some(Measure {
         topology: mesh.topology,
         primitives: mesh.primitive_count(),

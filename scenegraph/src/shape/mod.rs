@@ -17,6 +17,7 @@ mod outline;
 mod primitives;
 mod profiles;
 mod texcoords;
+mod text;
 mod values;
 
 use glam::DVec3;
@@ -34,8 +35,9 @@ use crate::graph::Graph;
 use assemble::Assembler;
 pub(crate) use attributes::{Attributes, has_texcoords};
 pub(crate) use made::{Complaint, MadeFaces, elevation_grid, extrusion};
-pub(crate) use nurbs::{is_nurbs, is_trimmed};
+pub(crate) use nurbs::is_nurbs;
 pub(crate) use primitives::is_closed;
+pub(crate) use text::{is_screen_text, is_text};
 
 /// All that a mesh depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -50,11 +52,18 @@ struct MeshKey {
     ordering: crate::resolve::Ordering,
     crease_angle: u64,
     complexity: u64,
-    /// Of a surface that profiles trim: them, and their points.
+    /// Of what profiles shape: them, and their points.
     profiles: Option<(ProfileList, Option<NodeId>)>,
     chord: Option<u64>,
     style: Style,
     lit: bool,
+    /// Font and size, for text.
+    text: Option<text::TextKey>,
+}
+
+/// Whether profiles have a say in a shape of this class.
+pub(crate) fn has_profiles(class: Class) -> bool {
+    nurbs::is_trimmed(class) || class == Class::Text3
 }
 
 /// A mesh that was made, and what its material must know.
@@ -75,6 +84,7 @@ pub struct ShapeMaker {
     assembler: Assembler,
     /// The arrays of an earlier shape, for the next one to fill.
     spare: faces::Spare,
+    glyphs: text::GlyphCache,
     bytes: usize,
 }
 
@@ -92,12 +102,12 @@ pub struct Job<'a> {
     pub shared: bool,
     /// Whether polygons are cut from their first corner, whatever their shape.
     pub fans: bool,
-    /// The faces of a shape that is given by rule.
-    pub made: Option<&'a MadeFaces>,
     /// Of NURBS: the chord asked for, in the shape's own frame.
     pub chord: Option<f64>,
-    /// Of NURBS surfaces: the profiles that trim it.
+    /// Of NURBS surfaces the profiles that trim it, of text those that shape it.
     pub profiles: Vec<NodeId>,
+    /// The faces of a shape that is given by rule.
+    pub made: Option<&'a MadeFaces>,
 }
 
 impl ShapeMaker {
@@ -121,10 +131,12 @@ impl ShapeMaker {
             ordering: state.hints.ordering,
             crease_angle: state.hints.crease_angle_rad.to_bits(),
             complexity: state.complexity.to_bits(),
-            profiles: is_trimmed(job.class).then_some((state.profiles, state.profile_coordinates)),
+            profiles: has_profiles(job.class)
+                .then_some((state.profiles, state.profile_coordinates)),
             chord: job.chord.map(f64::to_bits),
             style: job.style,
             lit: job.lit,
+            text: is_text(job.class).then(|| text::TextKey::of(state)),
         }
     }
 
@@ -174,7 +186,7 @@ impl ShapeMaker {
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
-        let made = measure::measure(job, attributes).map(|measure| Made {
+        let made = measure::measure(job, attributes, &mut self.glyphs).map(|measure| Made {
             lit: measure.topology == Topology::Triangles,
             textured: job.state.texture.is_some(),
             mesh: keep(measure),
@@ -195,6 +207,10 @@ impl ShapeMaker {
                     .and_then(|m| outline::styled_primitive(m, job.style))
             }
             _ if is_nurbs(job.class) => nurbs::mesh(job, attributes, remarks),
+            Class::Text2 | Class::Text3 | Class::AsciiText => {
+                text::mesh(job, attributes, &mut self.glyphs, remarks)
+                    .and_then(|m| outline::styled_primitive(m, job.style))
+            }
             Class::LineSet | Class::IndexedLineSet => {
                 let mut segments = lines::segments(job, attributes, remarks);
                 self.assembler
@@ -224,10 +240,14 @@ impl ShapeMaker {
     /// Whether shapes of this class are made here.
     pub fn knows(class: Class) -> bool {
         is_nurbs(class)
+            || is_text(class)
             || matches!(
                 class,
                 Class::Cube
                     | Class::Sphere
+                    | Class::Text2
+                    | Class::Text3
+                    | Class::AsciiText
                     | Class::Cone
                     | Class::Cylinder
                     | Class::FaceSet

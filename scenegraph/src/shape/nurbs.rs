@@ -48,9 +48,8 @@ pub fn mesh(job: &Job<'_>, attributes: &Attributes<'_>, remarks: &mut Remarks) -
 }
 
 /// How finely a shape is cut whose control points have a box with this diagonal: as asked for, or
-/// about as a sphere of the same size and the same complexity. That has a radius of the diagonal
-/// over 2 sqrt(3), and n slices miss it by 1 - cos(pi / n) of that. Round parts, however small, get
-/// as many slices a turn.
+/// with as many slices `n` to a full turn as a sphere of that complexity has, and a chord of at most
+/// `1 - cos(pi / n)` of the diagonal, which is what such slices miss of a radius.
 fn fineness(job: &Job<'_>, diagonal: f64) -> Fineness {
     if let Some(chord) = job.chord {
         return Fineness {
@@ -59,10 +58,9 @@ fn fineness(job: &Job<'_>, diagonal: f64) -> Fineness {
         };
     }
     let n = f64::from(slices(job.state.complexity));
-    let radius = diagonal / (2.0 * 3.0_f64.sqrt());
     Fineness {
         // A shape whose points are all in one place has nothing to divide.
-        chord: (radius * (1.0 - (std::f64::consts::PI / n).cos())).max(f64::MIN_POSITIVE),
+        chord: (diagonal * (1.0 - (std::f64::consts::PI / n).cos())).max(f64::MIN_POSITIVE),
         turn_rad: std::f64::consts::TAU / n,
     }
 }

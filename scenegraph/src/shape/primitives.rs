@@ -221,6 +221,7 @@ pub fn is_closed(class: Class, attributes: &Attributes<'_>) -> bool {
         Class::Cylinder => ["SIDES", "TOP", "BOTTOM"]
             .iter()
             .all(|p| draws(attributes, p)),
+        Class::Text3 => attributes.node.has_bits("parts", "ALL"),
         _ => false,
     }
 }

@@ -22,6 +22,7 @@ use std::sync::Arc;
 use crate::scene::{Image, Scene};
 
 use groups::Writer;
+pub use names::legal as legal_name;
 
 /// Where the pixels of a texture are, for the text.
 #[derive(Clone, Debug, PartialEq, Eq)]

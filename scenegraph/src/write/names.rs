@@ -8,7 +8,7 @@ use std::borrow::Cow;
 /// A name with every character replaced that cannot stand in one: blanks, controls, brackets and
 /// those with a meaning of their own. A digit cannot be the first (SbName::isBaseNameStartChar).
 /// `None` for the empty name.
-pub(super) fn legal(name: &str) -> Option<Cow<'_, str>> {
+pub fn legal(name: &str) -> Option<Cow<'_, str>> {
     let first = name.chars().next()?;
     let is_legal =
         |c: char| !(c.is_control() || c.is_whitespace() || "\"'#+.,\\{}[]()|~=".contains(c));

@@ -19,6 +19,9 @@ const SHAPES: &[&str] = &[
     "QuadMesh { verticesPerRow 3 verticesPerColumn 3 }",
     "IndexedLineSet { coordIndex [ 0, 1, 2, -1, 3, 4, -1 ] }",
     "PointSet { numPoints 5 }",
+    "NurbsCurve { numControlPoints 5 knotVector [ 0, 0, 0, 1, 2, 3, 3, 3 ] }",
+    "NurbsSurface { numUControlPoints 3 numVControlPoints 3
+        uKnotVector [ 0, 0, 0, 1, 1, 1 ] vKnotVector [ 0, 0, 1, 2, 2 ] }",
 ];
 
 fn bounds_of(mesh: &Mesh) -> Aabb {

@@ -115,10 +115,20 @@ pub struct Args {
     #[arg(long, value_name = "FILE.json|-")]
     pub stats: Option<PathBuf>,
 
+    /// Largest distance between triangles and the NURBS they stand for, in units of the scene
+    /// [default: by the shape's size and Complexity]
+    #[arg(long, value_name = "TOLERANCE", value_parser = convert::command::model::chord)]
+    pub chord: Option<f64>,
+
     /// A further folder that may be read, searched for images and included files behind the
     /// model's own; may be given several times
     #[arg(long, value_name = "DIR", value_parser = folder)]
     pub search: Vec<PathBuf>,
+
+    /// Sets text in this computer's fonts where it has those that the model names; the picture
+    /// then depends on the computer
+    #[arg(long)]
+    pub system_fonts: bool,
 
     /// Prints errors only
     #[arg(short, long)]

@@ -1,15 +1,17 @@
 //! The model: read, told apart by content, resolved. Prints nothing; what is wrong with it is in
 //! the list of diagnostics.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
-use convert::command::{bytes, model};
+use convert::command::{bytes, fonts, model};
 use convert::{ReadLimits, read_gltf};
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use scenegraph::scene::Scene;
 use scenegraph::{FileLoader, ResolveOptions};
 use viewer::view::framing::Up;
+
+use super::args::Args;
 
 /// A model in memory.
 pub struct Input {
@@ -32,14 +34,11 @@ pub struct Input {
 /// # Errors
 ///
 /// Why there is nothing to draw, in words.
-pub fn read(
-    path: &Path,
-    search: &[PathBuf],
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Result<Input, String> {
+pub fn read(args: &Args, diagnostics: &mut Vec<Diagnostic>) -> Result<Input, String> {
+    let path = args.model.as_path();
     let start = Instant::now();
     let bytes = bytes::read(path)?;
-    let files = model::file_loader(path, search);
+    let files = model::file_loader(path, &args.search);
     if is_gltf(&bytes) {
         return gltf(path, &bytes, files, start, diagnostics);
     }
@@ -52,7 +51,14 @@ pub fn read(
         return Err("not shown: its format is not read".to_owned());
     }
     let start = Instant::now();
-    let mut resolved = scenegraph::resolve(&graph, &ResolveOptions::default());
+    if args.system_fonts {
+        fonts::add_system_fonts(&mut graph);
+    }
+    let options = ResolveOptions {
+        chord: args.chord,
+        ..ResolveOptions::default()
+    };
+    let mut resolved = scenegraph::resolve(&graph, &options);
     diagnostics.append(&mut resolved.diagnostics);
     Ok(Input {
         scene: resolved.scene,

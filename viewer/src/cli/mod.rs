@@ -139,7 +139,7 @@ fn read(
     times: &mut stats::Times,
 ) -> Result<(Input, Images, Vec<Diagnostic>), String> {
     let mut diagnostics = Vec::new();
-    let input = input::read(&args.model, &args.search, &mut diagnostics).map(|input| {
+    let input = input::read(args, &mut diagnostics).map(|input| {
         times.read = input.read_time;
         times.resolve = input.resolve_time;
         let start = Instant::now();

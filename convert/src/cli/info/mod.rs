@@ -6,10 +6,11 @@ pub mod table;
 
 use std::path::{Path, PathBuf};
 
-use convert::command::{bytes, model};
+use convert::command::{bytes, fonts, model};
 use iv_parser::{Diagnostic, Dialect, Encoding, Header};
 use scenegraph::{Geometry, ResolveOptions};
 
+use super::args::Args;
 use super::inputs::Input;
 
 pub use measure::{Content, TextureKind};
@@ -47,11 +48,11 @@ impl Info {
 }
 
 /// Reads an input and measures it.
-pub fn of(input: &Input, search: &[PathBuf]) -> Info {
+pub fn of(input: &Input, args: &Args) -> Info {
     let mut info = Info::new(&input.path);
     let content = match &input.fault {
         Some(fault) => Err(fault.clone()),
-        None => content(&mut info, search),
+        None => content(&mut info, args),
     };
     match content {
         Ok(content) => info.content = Some(content),
@@ -60,18 +61,22 @@ pub fn of(input: &Input, search: &[PathBuf]) -> Info {
     info
 }
 
-fn content(info: &mut Info, search: &[PathBuf]) -> Result<Content, String> {
+fn content(info: &mut Info, args: &Args) -> Result<Content, String> {
     let bytes = bytes::read(&info.path)?;
     info.bytes = bytes.len() as u64;
-    let files = model::file_loader(&info.path, search);
+    let files = model::file_loader(&info.path, &args.search);
     let mut graph = model::graph(&bytes, &info.path, &files);
     drop(bytes);
     info.diagnostics = std::mem::take(&mut graph.diagnostics);
     if model::is_unsupported(&info.diagnostics) {
         return Err("its format is not read".to_owned());
     }
+    if args.system_fonts {
+        fonts::add_system_fonts(&mut graph);
+    }
     let options = ResolveOptions {
         geometry: Geometry::Measure,
+        chord: args.chord,
         ..ResolveOptions::default()
     };
     let mut resolved = scenegraph::resolve(&graph, &options);
