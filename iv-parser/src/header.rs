@@ -50,14 +50,19 @@ impl Header {
         encoding: Encoding::Ascii,
     };
 
+    /// The header with which bytes begin, if there is one.
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        header_line(text.trim_ascii_start())
+            .ok()
+            .map(|(_, header)| header)
+    }
+
     /// Whether this is an Inventor file older than version `major.minor`.
     pub fn is_older_than(&self, major: u8, minor: u8) -> bool {
         self.dialect == Dialect::Inventor && self.version < (major, minor)
     }
 }
-
-/// Bytes in which a header stands, where it is asked for alone.
-const HEADER_REACH: usize = 256;
 
 fn version(input: &[u8]) -> IResult<&[u8], (u8, u8)> {
     let (input, _) = one_of("Vv")(input)?;
@@ -172,20 +177,21 @@ pub fn read_header(bytes: &[u8], problems: &mut Vec<Problem>) -> (Header, usize)
 
 /// Whether the first line says that what follows is binary.
 pub fn is_binary(bytes: &[u8]) -> bool {
-    let mut ignored = Vec::new();
-    // The header is all that is looked at.
-    let start = &bytes[..bytes.len().min(HEADER_REACH)];
-    read_header(start, &mut ignored).0.encoding == Encoding::Binary
+    Header::of(bytes).is_some_and(|header| header.encoding == Encoding::Binary)
 }
 
 /// What a file without our header is, and what to do with it, if its first bytes tell.
 fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
-    const UNPACK: &str = "unpack it first";
+    const UNPACK: &str = "what is packed twice is not read";
     const CONVERT: &str = "only Inventor and VRML files are read";
     const SIGNS: &[(&[u8], &str, &str)] = &[
-        (b"\x1f\x8b", "a gzip archive", UNPACK),
-        (b"BZh", "a bzip2 archive", UNPACK),
-        (b"PK\x03\x04", "a zip archive", UNPACK),
+        (b"\x1f\x8b", "packed with gzip", UNPACK),
+        (b"BZh", "packed with bzip2", UNPACK),
+        (
+            b"PK\x03\x04",
+            "a zip archive",
+            "only the archive given to the command is opened",
+        ),
         (b"\xff\xfe", "UTF-16 text", "save it as UTF-8"),
         (b"\xfe\xff", "UTF-16 text", "save it as UTF-8"),
         (b"#X3D", "X3D", CONVERT),

@@ -55,6 +55,11 @@ pub trait Loader {
     /// Says why it cannot be read.
     fn read(&self, id: &Path) -> Result<Vec<u8>, LoadError>;
 
+    /// How much may come out of a file that is packed.
+    fn unpack_limits(&self) -> unpack::Limits {
+        unpack::Limits::default()
+    }
+
     /// Finds and reads.
     ///
     /// # Errors
@@ -73,6 +78,7 @@ pub trait Loader {
 #[derive(Clone, Debug, Default)]
 pub struct FileLoader {
     folders: Vec<PathBuf>,
+    unpack_limits: unpack::Limits,
 }
 
 /// Longest file read, so that a device or a mistake cannot exhaust memory.
@@ -92,6 +98,16 @@ impl FileLoader {
         };
         Self {
             folders: folders.into_iter().filter_map(real).collect(),
+            unpack_limits: unpack::Limits::default(),
+        }
+    }
+
+    /// The same with other limits on what comes out of packed files.
+    #[must_use]
+    pub fn with_unpack_limits(self, unpack_limits: unpack::Limits) -> Self {
+        Self {
+            unpack_limits,
+            ..self
         }
     }
 
@@ -147,6 +163,10 @@ impl Loader for FileLoader {
             error = LoadError::Outside;
         }
         Err(error)
+    }
+
+    fn unpack_limits(&self) -> unpack::Limits {
+        self.unpack_limits
     }
 
     fn read(&self, id: &Path) -> Result<Vec<u8>, LoadError> {

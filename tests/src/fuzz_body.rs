@@ -26,6 +26,7 @@ const LIMITS: ResolveLimits = ResolveLimits {
 /// All bodies.
 pub fn all(bytes: &[u8]) {
     parse(bytes);
+    binary(bytes);
     let resolved = resolve(bytes);
     convert(&resolved);
     // Any answer is right.
@@ -52,6 +53,26 @@ pub fn parse(bytes: &[u8]) {
     }
     assert!(again.problems.is_empty(), "print: {:?}", again.problems);
     assert!(print(&again.tree) == text, "a second print differs");
+}
+
+/// Reading a file of either form ends, and so does writing what was read in both forms.
+///
+/// # Panics
+///
+/// When something is not written.
+pub fn binary(bytes: &[u8]) {
+    let limits = iv_parser::Limits::default();
+    let parsed = iv_parser::parse_any(bytes, &RegistryLayout, &limits);
+    let text = print(&parsed.tree);
+    iv_parser::parse(&text);
+    if !iv_parser::has_binary_form(&parsed.tree.header) {
+        return;
+    }
+    let mut stored = Vec::new();
+    match iv_parser::print_binary(&parsed.tree, &RegistryLayout, &mut stored) {
+        Ok(_) => print(&iv_parser::parse_any(&stored, &RegistryLayout, &limits).tree),
+        Err(error) => panic!("{error}"),
+    };
 }
 
 /// A tree as text.

@@ -13,3 +13,4 @@ pub mod reference;
 pub mod same_scene;
 pub mod same_tree;
 pub mod shadow_scenes;
+pub mod stored_tree;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use clap::{Parser, ValueEnum};
+use convert::command::access::PackedArgs;
 
 use super::choices::Choices;
 
@@ -23,13 +24,15 @@ Examples:
   ivconvert house.iv --quantize --tolerance 0.1mm --compress meshopt
         as small as the tolerance allows
   ivconvert models --out-dir web
-        all .iv and .wrl files below models, in the same structure below web
+        all models below the folder models, in the same structure below web
   ivconvert house.iv --search ~/textures
         takes images and included files from there too
   ivconvert house.iv --strict --report house.json
         for scripts: exit code 1 if anything is lost, and all messages as JSON
   ivconvert old.iv -o new.iv
-        Inventor text again, laid out anew
+        Inventor text again, laid out anew; with --binary a binary file
+  ivconvert models.ivz --password-file key.txt
+        the model in a zip archive, with the textures and files in it
   ivconvert house.glb -o house.iv
         Inventor text of any glTF, with its images beside it
   ivconvert --info house.iv
@@ -47,7 +50,8 @@ Exit codes:
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ivconvert", version, override_usage = USAGE, after_help = EXAMPLES)]
 pub struct Args {
-    /// Models, or folders that are searched for .iv and .wrl files; .glb and .gltf for -o x.iv
+    /// Models, or folders that are searched for models (.iv, .ivx, .ivl, .ivz, .ivzl, .wrl, .wrz,
+    /// .vrml, and these with .gz or .bz2 behind); .glb and .gltf for -o x.iv
     #[arg(value_name = "INPUT", required = true)]
     pub inputs: Vec<PathBuf>,
 
@@ -103,6 +107,12 @@ pub struct Args {
     /// depends on the computer
     #[arg(long)]
     pub system_fonts: bool,
+    #[command(flatten)]
+    pub packed: PackedArgs,
+
+    /// Inventor files are written in binary: shorter and faster to read, with numbers of 32 bits
+    #[arg(long)]
+    pub binary: bool,
 
     /// Leaves out Inventor's own values that glTF has no place for
     #[arg(long)]
@@ -124,7 +134,7 @@ pub struct Args {
     /// Shows what is in the inputs and writes no files
     #[arg(long, conflicts_with_all = [
         "output", "out_dir", "format", "report", "timings", "strict", "no_extras", "round_trip",
-        "html", "embed", "Choices",
+        "html", "embed", "binary", "Choices",
     ])]
     pub info: bool,
 
@@ -142,7 +152,7 @@ pub enum Format {
     Gltf,
     /// A page that shows the model in any browser, offline
     Html,
-    /// Inventor text: of Inventor laid out anew, of glTF made anew
+    /// Inventor: of Inventor text laid out anew or, with --binary, binary; of glTF made anew
     Iv,
 }
 

@@ -3,34 +3,36 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
+use convert::command::model::Opened;
 use convert::command::{atomic, model};
 use convert::{InventorOptions, Note, gltf_to_inventor};
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use serde_json::json;
 
+use super::inventor::Text;
 use super::job::{Outcome, Settings};
 
 /// Why glTF is not made of glTF.
 pub const IS_GLTF: &str = "it is glTF already; glTF is made of Inventor models only, and Inventor of glTF with `-o NAME.iv`";
 
-/// Converts the bytes of a `.glb` or `.gltf`.
+/// Converts a `.glb` or `.gltf`.
 pub fn to_inventor(
     outcome: &mut Outcome,
-    bytes: &[u8],
+    opened: &Opened,
     path: &Path,
     settings: &Settings,
 ) -> Result<(), String> {
-    let name = outcome.input.display().to_string();
-    let files = model::file_loader(&outcome.input, &settings.search);
-    let beside = model::canonical_folder_of(&outcome.input);
+    let name = opened.name.clone();
     let folder = model::folder_of(path);
     let existing = |name: &str| fs::read(folder.join(name)).ok();
     let options = InventorOptions {
         embed_images: settings.embed,
         ..InventorOptions::default()
     };
-    let made = gltf_to_inventor(bytes, &name, &beside, &files, &existing, &options)
+    let (beside, files) = (&opened.folder, &opened.files);
+    let made = gltf_to_inventor(&opened.bytes, &name, beside, files, &existing, &options)
         .map_err(|error| error.to_string())?;
     atomic::make_folder_of(path)?;
     let mut written = 0;
@@ -40,9 +42,16 @@ pub fn to_inventor(
         written += atomic::write(&file, |out| out.write_all(bytes))
             .map_err(|error| atomic::cannot_write(&file, &error))?;
     }
-    written += atomic::write(path, |out| out.write_all(&made.text))
-        .map_err(|error| atomic::cannot_write(path, &error))?;
-    outcome.bytes_out = written;
+    let made_name: Arc<str> = path.display().to_string().into();
+    let text = Text::of(&made.text, &made_name);
+    let result = if settings.is_binary && text.has_binary_form() {
+        text.write(path, &made_name, true)
+    } else {
+        atomic::write(path, |out| out.write_all(&made.text)).map(|len| (len, Vec::new()))
+    };
+    let (length, lost) = result.map_err(|error| atomic::cannot_write(path, &error))?;
+    outcome.warnings.extend(lost);
+    outcome.bytes_out = written + length;
     let counts = made.counts;
     outcome.counts = json!({
         "nodes": counts.nodes,

@@ -119,7 +119,7 @@ fn search(root: &Path, skip: Option<&Path>) -> Vec<Input> {
     }
     inputs.sort_by(|a, b| a.path.cmp(&b.path));
     if inputs.is_empty() {
-        let why = "the folder holds no .iv or .wrl files".to_owned();
+        let why = "the folder holds no models: no .iv, .wrl or the like".to_owned();
         inputs.push(Input::fault(root, why));
     }
     inputs
@@ -157,7 +157,30 @@ impl Listing {
     }
 }
 
+/// Endings of the names that models have, as far as folders are searched for them.
+const ENDINGS: [&str; 8] = ["iv", "ivx", "ivl", "ivz", "ivzl", "wrl", "wrz", "vrml"];
+
 fn is_model(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("iv") || e.eq_ignore_ascii_case("wrl"))
+    let unpacked = without_packing(path);
+    let ending = unpacked.extension().unwrap_or_default();
+    ENDINGS
+        .iter()
+        .any(|known| ending.eq_ignore_ascii_case(known))
+}
+
+/// The path without the ending that packing adds: `a.iv` for `a.iv.gz`.
+pub fn without_packing(path: &Path) -> PathBuf {
+    let is_packed = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("gz") || e.eq_ignore_ascii_case("bz2"));
+    let inner = if is_packed {
+        path.with_extension("")
+    } else {
+        path.to_owned()
+    };
+    match inner.extension() {
+        // Of `a.gz` the name is all there is.
+        None => path.to_owned(),
+        Some(_) => inner,
+    }
 }

@@ -1,12 +1,13 @@
-//! Inventor text to Inventor text. Works on the syntax alone: unknown nodes, names, connections
+//! Inventor to Inventor, text or binary. Works on the syntax alone: unknown nodes, names, connections
 //! and references to other files stay as they are.
 
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
+use convert::command::model::Opened;
 use convert::command::{atomic, model};
-use iv_parser::{Diagnostic, Limits, Severity, Source, SourcePos, Tree};
+use iv_parser::{Diagnostic, Limits, Problem, Severity, Source, SourcePos, Tree};
 use scenegraph::RegistryLayout;
 
 use super::references;
@@ -53,14 +54,23 @@ impl<'a> Text<'a> {
         model::is_unsupported(&self.diagnostics)
     }
 
-    /// What it refers to and would no longer find after moving from one folder to another.
-    pub fn left_behind(&self, name: &Arc<str>, from: &Path, to: &Path) -> Vec<Diagnostic> {
+    /// What it refers to and would no longer find when it is written into the folder `to`.
+    pub fn left_behind(&self, name: &Arc<str>, from: &Opened, to: &Path) -> Vec<Diagnostic> {
+        self.placed(name, references::left_behind(&self.tree, from, to))
+    }
+
+    fn placed(&self, name: &Arc<str>, problems: Vec<Problem>) -> Vec<Diagnostic> {
         let source = Source {
             name,
             file: 0,
             bytes: self.bytes,
         };
-        source.diagnostics(references::left_behind(&self.tree, from, to))
+        source.diagnostics(problems)
+    }
+
+    /// Whether it can be written as a binary file.
+    pub fn has_binary_form(&self) -> bool {
+        iv_parser::has_binary_form(&self.tree.header)
     }
 
     /// Number of nodes written in it.
@@ -68,14 +78,26 @@ impl<'a> Text<'a> {
         self.tree.node_count()
     }
 
-    /// Writes it, laid out anew. Returns its length.
+    /// Writes it as text, laid out anew, or as a binary file. Returns its length, and what could
+    /// not be kept.
     ///
     /// # Errors
     ///
     /// As [`atomic::write`].
-    pub fn write(&self, path: &Path) -> io::Result<u64> {
-        atomic::write(path, |out| {
-            iv_parser::print(&self.tree, &RegistryLayout, out)
-        })
+    pub fn write(
+        &self,
+        path: &Path,
+        name: &Arc<str>,
+        is_binary: bool,
+    ) -> io::Result<(u64, Vec<Diagnostic>)> {
+        let mut lost = Vec::new();
+        let length = atomic::write(path, |out| {
+            if !is_binary {
+                return iv_parser::print(&self.tree, &RegistryLayout, out);
+            }
+            lost = iv_parser::print_binary(&self.tree, &RegistryLayout, out)?;
+            Ok(())
+        })?;
+        Ok((length, self.placed(name, lost)))
     }
 }

@@ -4,11 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use convert::command::access::Access;
+use convert::command::atomic;
+use convert::command::fonts;
 use convert::command::messages::{file_of, image_left_out};
-use convert::command::{atomic, bytes, fonts, model};
+use convert::command::model::{self, Opened};
 use convert::{Container, Loss, Options, Recorder, Report};
 use iv_parser::{Diagnostic, Severity, SourcePos};
-use scenegraph::{Loader, ResolveOptions, Resolved};
+use scenegraph::{Graph, Loader, ResolveOptions, Resolved};
 use serde_json::{Value, json};
 
 use super::args::{Args, Format};
@@ -19,13 +22,15 @@ use super::{from_gltf, inventor};
 pub const UNSUPPORTED: &str = "not converted: its format is not read";
 
 /// What is the same for all inputs.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Settings {
     /// `None` if no format could be settled; no input has an output then.
     format: Option<Format>,
     options: Options,
-    /// Further folders that may be read.
-    pub search: Vec<PathBuf>,
+    /// How inputs are opened.
+    pub access: Access,
+    /// Inventor files are written in binary.
+    pub is_binary: bool,
     /// The source goes into the output.
     pub round_trip: bool,
     /// Images go into an Inventor text.
@@ -37,7 +42,7 @@ pub struct Settings {
 
 impl Settings {
     /// As the user wants it.
-    pub fn of(args: &Args, inputs: usize) -> Self {
+    pub fn of(args: &Args, inputs: usize, access: Access) -> Self {
         let format = args.format().ok();
         let options = Options {
             container: match format {
@@ -54,7 +59,8 @@ impl Settings {
         Self {
             format,
             options: args.choices.apply(options),
-            search: args.search.clone(),
+            access,
+            is_binary: args.binary,
             round_trip: args.round_trip,
             embed: args.embed,
             resolve: ResolveOptions {
@@ -138,34 +144,54 @@ pub fn run(input: &Input, output: Option<&Path>, settings: &Settings) -> Outcome
 }
 
 fn to_inventor(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<(), String> {
-    let bytes = bytes::read(&outcome.input)?;
-    outcome.bytes_in = bytes.len() as u64;
-    if convert::is_gltf(&bytes) {
-        return from_gltf::to_inventor(outcome, &bytes, path, settings);
+    let opened = model::open(&outcome.input, &settings.access)?;
+    outcome.bytes_in = opened.packed_len;
+    if convert::is_gltf(&opened.bytes) {
+        return from_gltf::to_inventor(outcome, &opened, path, settings);
     }
-    let name: Arc<str> = outcome.input.display().to_string().into();
-    let text = inventor::Text::of(&bytes, &name);
-    outcome.diagnostics.clone_from(&text.diagnostics);
+    let name: Arc<str> = opened.name.as_str().into();
+    let text = inventor::Text::of(&opened.bytes, &name);
+    outcome.diagnostics.clone_from(&opened.diagnostics);
+    outcome.diagnostics.extend_from_slice(&text.diagnostics);
     if text.is_unsupported() {
         return Err(UNSUPPORTED.to_owned());
     }
+    if settings.is_binary && !text.has_binary_form() {
+        return Err("VRML has no binary form; leave out --binary".to_owned());
+    }
     atomic::make_folder_of(path)?;
-    outcome.bytes_out = text
-        .write(path)
+    outcome.warnings = text.left_behind(&name, &opened, model::folder_of(path));
+    let (length, lost) = text
+        .write(path, &name, settings.is_binary)
         .map_err(|error| atomic::cannot_write(path, &error))?;
+    outcome.bytes_out = length;
+    outcome.warnings.extend(lost);
     outcome.counts = json!({ "nodes": text.node_count() });
-    let (from, to) = (model::folder_of(&outcome.input), model::folder_of(path));
-    outcome.warnings = text.left_behind(&name, from, to);
     Ok(())
 }
 
 fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<(), String> {
-    let files = model::file_loader(&outcome.input, &settings.search);
-    let folder = model::canonical_folder_of(&outcome.input);
+    let opened = model::open(&outcome.input, &settings.access)?;
+    outcome.bytes_in = opened.packed_len;
+    if convert::is_gltf(&opened.bytes) {
+        return Err(from_gltf::IS_GLTF.to_owned());
+    }
+    let Opened {
+        bytes,
+        name,
+        folder,
+        files,
+        diagnostics,
+        ..
+    } = opened;
+    outcome.diagnostics = diagnostics;
     let recorder = Recorder::new(&files, &folder);
     let keep = settings.round_trip;
     let loader: &dyn Loader = if keep { &recorder } else { &files };
-    let (resolved, text) = resolved(outcome, loader, settings)?;
+    let graph = scenegraph::load(&bytes, &name, &folder, loader);
+    // Text and graph take up no memory while the output is made.
+    let text = keep.then_some(bytes);
+    let resolved = resolved(outcome, graph, settings)?;
     let scene = resolved.scene;
     atomic::make_folder_of(path)?;
     let report = match text {
@@ -192,21 +218,13 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     Ok(())
 }
 
-/// Reads and resolves the input. Text and graph are gone when this returns, so that they do not
-/// take up memory while the output is made; the text is given back if it is to be kept.
+/// Resolves a graph, which is gone then.
 fn resolved(
     outcome: &mut Outcome,
-    loader: &dyn Loader,
+    mut graph: Graph,
     settings: &Settings,
-) -> Result<(Resolved, Option<bytes::Bytes>), String> {
-    let bytes = bytes::read(&outcome.input)?;
-    outcome.bytes_in = bytes.len() as u64;
-    if convert::is_gltf(&bytes) {
-        return Err(from_gltf::IS_GLTF.to_owned());
-    }
-    let mut graph = model::graph(&bytes, &outcome.input, loader);
-    let text = settings.round_trip.then_some(bytes);
-    outcome.diagnostics = std::mem::take(&mut graph.diagnostics);
+) -> Result<Resolved, String> {
+    outcome.diagnostics.append(&mut graph.diagnostics);
     if model::is_unsupported(&outcome.diagnostics) {
         return Err(UNSUPPORTED.to_owned());
     }
@@ -215,7 +233,7 @@ fn resolved(
     }
     let mut resolved = scenegraph::resolve(&graph, &settings.resolve);
     outcome.diagnostics.append(&mut resolved.diagnostics);
-    Ok((resolved, text))
+    Ok(resolved)
 }
 
 fn words(error: &convert::Error) -> String {

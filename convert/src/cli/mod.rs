@@ -25,6 +25,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Parser;
+use convert::command::access::Access;
 use convert::command::messages::{error, error_line};
 use convert::command::{atomic, json};
 
@@ -45,11 +46,13 @@ const FAILED: u8 = 2;
 pub fn run() -> ExitCode {
     let args = Args::parse();
     let inputs = inputs::find(&args.inputs, args.out_dir.as_deref());
-    let outcome = if args.info {
-        Ok(show(&args, &inputs))
-    } else {
-        plan::outputs(&args, &inputs).map(|outputs| convert(&args, &inputs, &outputs))
-    };
+    let outcome = Access::new(&args.search, &args.packed).and_then(|access| {
+        if args.info {
+            return Ok(show(&args, &inputs, &access));
+        }
+        let outputs = plan::outputs(&args, &inputs)?;
+        Ok(convert(&args, &inputs, &outputs, access))
+    });
     let code = outcome.unwrap_or_else(|why| {
         // The arguments are well formed, so how they are written is not explained again.
         Screen::new(0, true).message(&error(&why));
@@ -59,9 +62,9 @@ pub fn run() -> ExitCode {
 }
 
 /// Converts all inputs; returns the exit code.
-fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>]) -> u8 {
+fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>], access: Access) -> u8 {
     let start = Instant::now();
-    let settings = job::Settings::of(args, inputs.len());
+    let settings = job::Settings::of(args, inputs.len(), access);
     let mut screen = Screen::new(inputs.len(), args.quiet);
     let mut totals = Totals::default();
     let mut report = args.report.as_ref().map(|_| report::Report::new(args));
@@ -102,7 +105,7 @@ fn convert(args: &Args, inputs: &[Input], outputs: &[Option<PathBuf>]) -> u8 {
 }
 
 /// Shows what is in all inputs; returns the exit code.
-fn show(args: &Args, inputs: &[Input]) -> u8 {
+fn show(args: &Args, inputs: &[Input], access: &Access) -> u8 {
     let mut screen = Screen::new(inputs.len(), args.quiet);
     let mut documents = Vec::new();
     let mut failed = false;
@@ -110,7 +113,7 @@ fn show(args: &Args, inputs: &[Input]) -> u8 {
     pool::run(
         inputs.len(),
         args.jobs(),
-        |i| info::of(&inputs[i], args),
+        |i| info::of(&inputs[i], args, access),
         |event| match event {
             Event::Tick { finished } => screen.tick(finished),
             Event::Next { index, result } => {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::args::{Args, Format};
-use super::inputs::{Input, identity};
+use super::inputs::{Input, identity, without_packing};
 
 /// The output of each input; `None` for an input that is a fault.
 ///
@@ -65,7 +65,7 @@ fn output_of(args: &Args, format: Format, input: &Input) -> PathBuf {
         (None, Some(folder)) => folder.join(&input.relative),
         (None, None) => input.path.clone(),
     };
-    path.with_extension(format.extension())
+    without_packing(&path).with_extension(format.extension())
 }
 
 /// What a path is used for.

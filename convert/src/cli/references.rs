@@ -3,32 +3,37 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use convert::command::model::{Files, Opened};
 use iv_parser::{Atom, Item, NodeId, Problem, Severity, Tree, Value, text_of};
+use scenegraph::Loader;
 
-/// A problem for each file that is found from the folder `from` and not from the folder `to`,
-/// where it is named first.
-pub fn left_behind(tree: &Tree<'_>, from: &Path, to: &Path) -> Vec<Problem> {
-    let absolute = |folder: &Path| match folder.as_os_str().is_empty() {
-        true => Path::new(".").canonicalize(),
-        false => folder.canonicalize(),
+/// A problem for each file that the model finds and that is not found from the folder `to`, where
+/// it is named first.
+pub fn left_behind(tree: &Tree<'_>, from: &Opened, to: &Path) -> Vec<Problem> {
+    let to = match to.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => to,
     };
-    match (absolute(from), absolute(to)) {
-        (Ok(from), Ok(to)) if from == to => return Vec::new(),
-        _ => {}
+    if to.canonicalize().is_ok_and(|to| to == from.folder) {
+        return Vec::new();
     }
+    let is_found = |path: &Path, name: &str| match &from.files {
+        Files::Folders(_) => from.folder.join(path).is_file(),
+        Files::Archive(archive) => archive.find(&from.folder, name).is_ok(),
+    };
     let mut seen = BTreeSet::new();
     let mut problems = Vec::new();
     for atom in file_names(tree) {
         let (Atom::String(raw, span) | Atom::Word(raw, span)) = *atom else {
             continue;
         };
-        let name = text_of(raw);
+        let name = text_of(&tree.string(raw));
         // As the loader reads names of other systems.
         let path = name.replace('\\', "/");
         // What VRML addresses inside a file stands behind `#`.
         let path = path.split_once('#').map_or(&*path, |(file, _)| file);
         let path = Path::new(path);
-        let is_moved = path.is_relative() && from.join(path).is_file() && !to.join(path).is_file();
+        let is_moved = path.is_relative() && !to.join(path).is_file() && is_found(path, &name);
         if is_moved && seen.insert(raw) {
             problems.push(Problem {
                 severity: Severity::Warning,

@@ -37,6 +37,24 @@ impl Deref for Bytes {
     }
 }
 
+impl Bytes {
+    /// The same bytes on the heap.
+    ///
+    /// # Errors
+    ///
+    /// In words, when there is no room for them.
+    pub fn into_vec(self) -> Result<Vec<u8>, String> {
+        match self {
+            Self::Heap(bytes) => Ok(bytes),
+            Self::Pages(ref pages, len) => {
+                let mut bytes = room_for(len).map_err(|error| error.to_string())?;
+                bytes.extend_from_slice(&pages[..len]);
+                Ok(bytes)
+            }
+        }
+    }
+}
+
 /// The bytes of an input.
 ///
 /// # Errors

@@ -69,6 +69,10 @@ impl Loader for Recorder<'_> {
         Ok(id)
     }
 
+    fn unpack_limits(&self) -> unpack::Limits {
+        self.loader.unpack_limits()
+    }
+
     fn read(&self, id: &Path) -> Result<Vec<u8>, LoadError> {
         let bytes = self.loader.read(id)?;
         let mut state = self.state.borrow_mut();

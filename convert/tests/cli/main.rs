@@ -9,5 +9,6 @@ mod info;
 mod inputs;
 mod messages;
 mod outputs;
+mod packed;
 mod place;
 mod report;

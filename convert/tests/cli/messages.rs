@@ -84,8 +84,11 @@ fn exit_codes_and_messages() {
         ),
         (
             "binary.iv",
-            2,
-            &["error[unsupported-format]: binary", "0 converted, 1 failed"],
+            0,
+            &[
+                "binary.iv:byte 24: error[unreadable]: a node was expected here",
+                "1 converted",
+            ],
         ),
         (
             "gone.iv cube.iv",
@@ -95,11 +98,7 @@ fn exit_codes_and_messages() {
                 "1 converted to cube.glb, 1 failed",
             ],
         ),
-        (
-            "folder",
-            2,
-            &["folder: error: the folder holds no .iv or .wrl files"],
-        ),
+        ("folder", 2, &["folder: error: the folder holds no models"]),
         (
             "cube.iv --out-dir cube.iv",
             2,

@@ -18,7 +18,7 @@ pub fn at_line(line: u32) -> SourcePos {
     SourcePos {
         file: 0,
         line,
-        column: 1,
+        column: u32::from(line > 0),
     }
 }
 

@@ -48,6 +48,10 @@ impl<'l> Includes<'l> {
         }
     }
 
+    pub(super) fn unpack_limits(&self) -> unpack::Limits {
+        self.loader.unpack_limits()
+    }
+
     /// Makes the first file known, so that others that include it are refused.
     pub(super) fn know_root(&mut self, name: &str, folder: &Path, root: NodeId) {
         if let Some(last) = Path::new(name).file_name() {

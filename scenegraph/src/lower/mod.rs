@@ -15,6 +15,7 @@ mod swept;
 mod upgrade;
 mod value;
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -88,7 +89,14 @@ impl Builder<'_> {
     /// `around` around all that is there.
     fn file(&mut self, bytes: &[u8], name: Arc<str>, folder: &Path, around: Class) -> NodeId {
         let index = self.files.len() as u32;
-        let parsed = iv_parser::parse_any(bytes, &RegistryLayout, &self.limits);
+        let (bytes, packing) = unpacked(bytes, &self.includes.unpack_limits());
+        let bytes = &*bytes;
+        let mut parsed = iv_parser::parse_any(bytes, &RegistryLayout, &self.limits);
+        if let Some(problem) = packing {
+            // Of what did not come out nothing else can be said.
+            parsed.problems.retain(|_| !bytes.is_empty());
+            parsed.problems.push(problem);
+        }
         let header = parsed.tree.header;
         self.files.push(SourceFile {
             name: Arc::clone(&name),
@@ -170,6 +178,34 @@ impl Builder<'_> {
     fn add(&mut self, node: Node) -> NodeId {
         self.nodes.push(node);
         NodeId(self.nodes.len() as u32 - 1)
+    }
+}
+
+/// The bytes of a file that is a gzip or bzip2 stream, and what is wrong with it.
+fn unpacked<'b>(bytes: &'b [u8], limits: &unpack::Limits) -> (Cow<'b, [u8]>, Option<Problem>) {
+    match unpack::unpack(bytes, limits) {
+        None => (bytes.into(), None),
+        Some(Ok(unpacked)) => {
+            let problem = unpacked.damage.map(|why| Problem {
+                severity: Severity::Error,
+                code: "damaged",
+                message: format!("the file cannot be unpacked to its end: {why}"),
+                hint: "what came out before was read".to_owned(),
+                span: Span::default(),
+            });
+            (unpacked.bytes.into(), problem)
+        }
+        Some(Err(why)) => {
+            // What it is packed in stands before it: no model in itself.
+            let problem = Problem {
+                severity: Severity::Error,
+                code: "unsupported-format",
+                message: format!("the file cannot be unpacked: {why}"),
+                hint: String::new(),
+                span: Span::default(),
+            };
+            ([].as_slice().into(), Some(problem))
+        }
     }
 }
 

@@ -66,11 +66,9 @@ pub fn corpus() -> Vec<Model> {
     };
     let files = folder.join("files");
     let entries = corpus::entries(&folder).expect("the corpus's list");
-    let is_ascii = |header: &str| {
-        header.starts_with("#VRML V1.0 ascii")
-            || (header.starts_with("#Inventor V") && header.contains("ascii"))
-    };
-    let read = entries.iter().filter(|entry| is_ascii(&entry.header));
+    let is_read =
+        |header: &str| header.starts_with("#VRML V1.0 ascii") || header.starts_with("#Inventor V");
+    let read = entries.iter().filter(|entry| is_read(&entry.header));
     let model = |entry: &corpus::Entry| Model {
         name: entry.path.clone(),
         path: files.join(&entry.path),

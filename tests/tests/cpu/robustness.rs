@@ -7,7 +7,7 @@ use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use samples::{ALL, path_of};
-use scenegraph::{FileLoader, ResolveLimits, ResolveOptions, load, resolve};
+use scenegraph::{FileLoader, RegistryLayout, ResolveLimits, ResolveOptions, load, resolve};
 use tests::mutate::{Rng, mutate};
 use tests::{fuzz_body, hostile};
 
@@ -36,10 +36,19 @@ const LONGEST_REMARK: usize = 2_000;
 
 fn sample_texts() -> Vec<Vec<u8>> {
     let read = |s| fs::read(path_of(s)).expect("a sample");
-    ALL.iter()
-        .map(read)
-        .filter(|text| text.len() < 10_000)
-        .collect()
+    let texts = ALL.iter().map(read).filter(|text| text.len() < 10_000);
+    texts.collect()
+}
+
+/// The binary forms of texts that have one.
+fn binary_forms(texts: &[Vec<u8>]) -> Vec<Vec<u8>> {
+    let stored = |text: &Vec<u8>| {
+        let parsed = iv_parser::parse(text);
+        let mut out = Vec::new();
+        let written = iv_parser::print_binary(&parsed.tree, &RegistryLayout, &mut out);
+        written.ok().map(|_| out)
+    };
+    texts.iter().filter_map(stored).collect()
 }
 
 #[test]
@@ -61,6 +70,7 @@ fn mutated_inputs() {
             .iter()
             .map(|r| rule(r).into_bytes()),
     );
+    texts.extend(binary_forms(&texts));
     let number = |name, usual| {
         let given = std::env::var(name).ok();
         given.and_then(|n| n.parse().ok()).unwrap_or(usual)

@@ -3,15 +3,15 @@
 use std::fs;
 use std::path::Path;
 
-use iv_parser::{Encoding, SourcePos, parse};
+use iv_parser::{Limits, SourcePos, parse, parse_any};
 use scenegraph::scene::{Placement, Scene, TextureSource};
-use scenegraph::{ResolveOptions, load, resolve};
+use scenegraph::{RegistryLayout, ResolveOptions, load, resolve};
 use tests::fuzz_body::{self, print};
 
 use super::models::{Model, corpus, samples};
 
 /// A scene without the places of the text it was read from.
-fn scene_of(bytes: &[u8], model: &Model) -> Scene {
+pub fn scene_of(bytes: &[u8], model: &Model) -> Scene {
     let beside = model.path.parent().unwrap_or(Path::new("."));
     let graph = load(bytes, &model.name, beside, &model.loader());
     let mut scene = resolve(&graph, &ResolveOptions::default()).scene;
@@ -40,7 +40,7 @@ fn scene_of(bytes: &[u8], model: &Model) -> Scene {
 }
 
 /// What is not equal, if anything.
-fn difference(a: &Scene, b: &Scene) -> Option<&'static str> {
+pub fn difference(a: &Scene, b: &Scene) -> Option<&'static str> {
     let parts = [
         ("nodes", a.nodes == b.nodes),
         ("instances", a.instances == b.instances),
@@ -57,10 +57,7 @@ fn difference(a: &Scene, b: &Scene) -> Option<&'static str> {
 
 fn check(model: &Model) -> Result<(), String> {
     let bytes = fs::read(&model.path).map_err(|e| e.to_string())?;
-    let parsed = parse(&bytes);
-    if parsed.tree.header.encoding != Encoding::Ascii {
-        return Ok(());
-    }
+    let parsed = parse_any(&bytes, &RegistryLayout, &Limits::default());
     let text = print(&parsed.tree);
     let again = parse(&text);
     if print(&again.tree) != text {

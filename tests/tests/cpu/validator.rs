@@ -19,7 +19,8 @@ fn converted(model: &Model, container: Container, out: &Path, number: usize) -> 
     };
     let extension = match container {
         Container::Glb => "glb",
-        Container::GltfBin => "gltf",
+        Container::GltfBin | Container::GltfEmbedded => "gltf",
+        Container::Html => "html",
     };
     let path = out.join(format!("{number}.{extension}"));
     let written = write_file(&model.scene(), &options, &model.images(), &path);

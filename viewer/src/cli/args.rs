@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Parser, ValueEnum};
+use convert::command::access::PackedArgs;
 use viewer::compare::Tolerance;
 use viewer::frame::{Extraction, Settings, Shadows, VolumeMethod};
 use viewer::gpu::AdapterChoice;
@@ -129,6 +130,8 @@ pub struct Args {
     /// then depends on the computer
     #[arg(long)]
     pub system_fonts: bool,
+    #[command(flatten)]
+    pub packed: PackedArgs,
 
     /// Prints errors only
     #[arg(short, long)]

@@ -4,11 +4,13 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use convert::command::{bytes, fonts, model};
+use convert::command::access::Access;
+use convert::command::fonts;
+use convert::command::model::{self, Files, Opened};
 use convert::{ReadLimits, read_gltf};
 use iv_parser::{Diagnostic, Severity, SourcePos};
+use scenegraph::ResolveOptions;
 use scenegraph::scene::Scene;
-use scenegraph::{FileLoader, ResolveOptions};
 use viewer::view::framing::Up;
 
 use super::args::Args;
@@ -22,7 +24,7 @@ pub struct Input {
     /// Which way is up if nobody says so.
     pub up: Up,
     /// Opens what the model names.
-    pub files: FileLoader,
+    pub files: Files,
     /// Reading, and parsing text or JSON.
     pub read_time: Duration,
     /// From the graph to the scene; none for glTF.
@@ -34,17 +36,19 @@ pub struct Input {
 /// # Errors
 ///
 /// Why there is nothing to draw, in words.
-pub fn read(args: &Args, diagnostics: &mut Vec<Diagnostic>) -> Result<Input, String> {
+pub fn read(
+    args: &Args,
+    access: &Access,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Input, String> {
     let path = args.model.as_path();
     let start = Instant::now();
-    let bytes = bytes::read(path)?;
-    let files = model::file_loader(path, &args.search);
-    if is_gltf(&bytes) {
-        return gltf(path, &bytes, files, start, diagnostics);
+    let mut opened = model::open(path, access)?;
+    if is_gltf(&opened.bytes) {
+        diagnostics.append(&mut opened.diagnostics);
+        return gltf(path, opened, start, diagnostics);
     }
-    let mut graph = model::graph(&bytes, path, &files);
-    // Only diagnostics quote the text, and they have done so.
-    drop(bytes);
+    let (mut graph, files) = opened.into_graph();
     let read_time = start.elapsed();
     diagnostics.append(&mut graph.diagnostics);
     if model::is_unsupported(diagnostics) {
@@ -72,14 +76,18 @@ pub fn read(args: &Args, diagnostics: &mut Vec<Diagnostic>) -> Result<Input, Str
 
 fn gltf(
     path: &Path,
-    bytes: &[u8],
-    files: FileLoader,
+    opened: Opened,
     start: Instant,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Input, String> {
-    let name = path.display().to_string();
-    let folder = model::canonical_folder_of(path);
-    let model = read_gltf(bytes, &name, &folder, &files, &ReadLimits::default())
+    let Opened {
+        bytes,
+        name,
+        folder,
+        files,
+        ..
+    } = opened;
+    let model = read_gltf(&bytes, &name, &folder, &files, &ReadLimits::default())
         .map_err(|error| error.to_string())?;
     let left_out = model.warnings.into_iter();
     diagnostics.extend(left_out.map(|message| warning(path, "gltf", message, "")));

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use clap::Parser;
+use convert::command::access::Access;
 use convert::command::messages::{self, Style, error_line, image_left_out, number, seconds};
 use convert::command::{atomic, json, model};
 use image::RgbaImage;
@@ -139,7 +140,9 @@ fn read(
     times: &mut stats::Times,
 ) -> Result<(Input, Images, Vec<Diagnostic>), String> {
     let mut diagnostics = Vec::new();
-    let input = input::read(args, &mut diagnostics).map(|input| {
+    let access = Access::new(&args.search, &args.packed);
+    let input = access.and_then(|access| input::read(args, &access, &mut diagnostics));
+    let input = input.map(|input| {
         times.read = input.read_time;
         times.resolve = input.resolve_time;
         let start = Instant::now();

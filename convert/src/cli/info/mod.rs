@@ -6,7 +6,8 @@ pub mod table;
 
 use std::path::{Path, PathBuf};
 
-use convert::command::{bytes, fonts, model};
+use convert::command::access::Access;
+use convert::command::{fonts, model};
 use iv_parser::{Diagnostic, Dialect, Encoding, Header};
 use scenegraph::{Geometry, ResolveOptions};
 
@@ -48,11 +49,11 @@ impl Info {
 }
 
 /// Reads an input and measures it.
-pub fn of(input: &Input, args: &Args) -> Info {
+pub fn of(input: &Input, args: &Args, access: &Access) -> Info {
     let mut info = Info::new(&input.path);
     let content = match &input.fault {
         Some(fault) => Err(fault.clone()),
-        None => content(&mut info, args),
+        None => content(&mut info, args, access),
     };
     match content {
         Ok(content) => info.content = Some(content),
@@ -61,12 +62,10 @@ pub fn of(input: &Input, args: &Args) -> Info {
     info
 }
 
-fn content(info: &mut Info, args: &Args) -> Result<Content, String> {
-    let bytes = bytes::read(&info.path)?;
-    info.bytes = bytes.len() as u64;
-    let files = model::file_loader(&info.path, &args.search);
-    let mut graph = model::graph(&bytes, &info.path, &files);
-    drop(bytes);
+fn content(info: &mut Info, args: &Args, access: &Access) -> Result<Content, String> {
+    let opened = model::open(&info.path, access)?;
+    info.bytes = opened.packed_len;
+    let (mut graph, _) = opened.into_graph();
     info.diagnostics = std::mem::take(&mut graph.diagnostics);
     if model::is_unsupported(&info.diagnostics) {
         return Err("its format is not read".to_owned());
