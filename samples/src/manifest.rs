@@ -58,6 +58,7 @@ pub const ALL: &[Sample] = &[
     sample("Stair runner", "shapes/stair_runner.iv", "shapes", "triangle strips with a colour each"),
     sample("Awning", "shapes/awning.iv", "shapes", "a quad mesh with a colour for each quad"),
     sample("NURBS", "shapes/nurbs.iv", "shapes", "a saddle trimmed by a line and a curve, an exact sphere and a closed curve"),
+    sample("Extrusions", "shapes/extrusions.wrl", "shapes", "cross-sections scaled, turned and closed to a ring (VRML 2.0)"),
     sample("Site plan", "shapes/site_plan.iv", "shapes", "unlit lines and points with widths, a pattern and several colours"),
     sample("Crate", "materials/crate_per_face.iv", "materials", "one material for each face"),
     sample("Hipped roof", "materials/roof_per_vertex.iv", "materials", "packed colours chosen by index at every corner"),
@@ -81,6 +82,7 @@ pub const ALL: &[Sample] = &[
     remarked("Extension nodes", "structure/extension_nodes.iv", "structure", "unknown classes with fields, isA and alternateRep", &["unknown-class"]),
     sample("Version 1.0", "structure/version_1_0.iv", "structure", "an Inventor V1.0 file with old shape hints"),
     sample("VRML 1.0", "structure/vrml_1_0.iv", "structure", "a VRML 1.0 world: anchor, emissive only, text"),
+    remarked("Desk lamps", "structure/desk_lamp.wrl", "structure", "two lamps from one prototype on a table; a grid for ground (VRML 2.0)", &["route", "no-effect"]),
     remarked("Lettering", "text/lettering.iv", "text", "solid letters with a bevel, flat text by justification and width, a label in pixels", &["font-substituted"]),
     sample("Units", "transforms/units.iv", "transforms", "one length in metres, centimetres, millimetres and feet"),
     sample("Mirrored and sheared", "transforms/mirrored_sheared.iv", "transforms", "negative scale, scaleOrientation, a shearing matrix"),
@@ -115,7 +117,7 @@ mod tests {
     use std::collections::BTreeSet;
     use std::fs;
 
-    /// All `.iv` files below the data folder, as the manifest writes their paths.
+    /// All model files below the data folder, as the manifest writes their paths.
     fn files_on_disk() -> BTreeSet<String> {
         let root = data_dir();
         let mut folders = vec![root.clone()];
@@ -125,7 +127,7 @@ mod tests {
                 let path = entry.unwrap().path();
                 if path.is_dir() {
                     folders.push(path);
-                } else if path.extension().is_some_and(|e| e == "iv") {
+                } else if path.extension().is_some_and(|e| e == "iv" || e == "wrl") {
                     let below = path.strip_prefix(&root).unwrap();
                     found.insert(below.to_str().unwrap().replace('\\', "/"));
                 }

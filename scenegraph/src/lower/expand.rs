@@ -1,15 +1,18 @@
 //! Instances of VRML 2 prototypes: a copy of the body for each, with its own values.
 //!
+//! Only nodes are copied that an instance can have otherwise than another one: those with an `IS`
+//! and all around them. The rest is shared by all instances, as if by `USE`.
+//!
 //! A definition stands before its instances, and files that name each other in a circle are
 //! refused, so no prototype comes to hold itself. Prototypes that hold each other twice, level by
 //! level, could still become any number of nodes: what all copies together hold is limited.
 
 use std::collections::VecDeque;
-use std::ops::Range;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use iv_parser::{Diagnostic, Severity};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Builder;
 use super::include::file_part;
@@ -20,6 +23,9 @@ use crate::registry::Class;
 
 /// Most nodes, fields and names that all copies together may hold.
 const MAX_COPIED: usize = 2_000_000;
+
+/// Looking at so many nodes counts as one copied.
+const SCANNED_SHARE: usize = 10;
 
 /// Longest way from an EXTERNPROTO over others to a definition.
 const MAX_HOPS: usize = 16;
@@ -32,12 +38,14 @@ pub(super) struct Expansion {
     reported: bool,
     /// Where each EXTERNPROTO leads.
     found: FxHashMap<usize, Option<usize>>,
+    /// For each prototype the nodes that its instances do not share.
+    own: FxHashMap<usize, Rc<FxHashSet<NodeId>>>,
 }
 
 /// The nodes of one copy.
 struct Copy {
-    /// Nodes of the template.
-    inside: Range<u32>,
+    /// Nodes of the template that each copy has for itself.
+    own: Rc<FxHashSet<NodeId>>,
     /// For each node of the template its copy.
     places: FxHashMap<NodeId, NodeId>,
     /// Still to be copied.
@@ -45,13 +53,13 @@ struct Copy {
 }
 
 impl Copy {
-    /// Where the copy of a node stands, or the node itself if it is not part of the template.
+    /// Where the copy of a node stands, or the node itself if it is shared.
     fn place(&mut self, node: NodeId, nodes: &mut Vec<Node>) -> NodeId {
-        if !self.inside.contains(&node.0) {
-            return node;
-        }
         if let Some(&known) = self.places.get(&node) {
             return known;
+        }
+        if !self.own.contains(&node) {
+            return node;
         }
         let made = NodeId(nodes.len() as u32);
         nodes.push(Node {
@@ -119,15 +127,15 @@ impl Builder<'_> {
             );
             return;
         };
-        let mut copy = Copy {
-            inside: proto.inside.clone(),
-            places: FxHashMap::default(),
-            open: VecDeque::new(),
-        };
-        if !copy.inside.contains(&root.0) {
+        if !proto.inside.contains(&root.0) {
             self.nodes[instance.node.0 as usize].children = vec![root];
             return;
         }
+        let mut copy = Copy {
+            own: self.own_nodes(index),
+            places: FxHashMap::default(),
+            open: VecDeque::new(),
+        };
         copy.places.insert(root, instance.node);
         copy.open.push_back(root);
         while let Some(template) = copy.open.pop_front() {
@@ -141,6 +149,48 @@ impl Builder<'_> {
             }
             self.copy_node(template, &mut copy, &values);
         }
+    }
+
+    /// The nodes of a template that depend on the instance: those with an `IS`, other instances
+    /// and includes, and all that hold one of them.
+    fn own_nodes(&mut self, index: usize) -> Rc<FxHashSet<NodeId>> {
+        if let Some(known) = self.expansion.own.get(&index) {
+            return Rc::clone(known);
+        }
+        let inside = self.protos.list[index].inside.clone();
+        self.expansion.copied += inside.len() / SCANNED_SHARE;
+        let mut holders: FxHashMap<NodeId, Vec<NodeId>> = FxHashMap::default();
+        let mut open = Vec::new();
+        for id in inside.map(NodeId) {
+            let node = &self.nodes[id.0 as usize];
+            let values = self.protos.templates.get(&id).map(|i| &i.values[..]);
+            let values = values.unwrap_or_default().iter().map(|(_, value)| value);
+            let values = values.chain(node.fields.iter().map(|f| &f.value));
+            let held = values.flat_map(|value| match value {
+                FieldValue::Nodes(nodes) => &nodes[..],
+                _ => &[],
+            });
+            for &child in node.children.iter().chain(held) {
+                holders.entry(child).or_default().push(id);
+            }
+            let includes = matches!(
+                node.class(),
+                Some(Class::VRMLInline | Class::File | Class::WWWInline)
+            );
+            let is_linked = self.protos.links.contains_key(&id);
+            if includes || is_linked || self.protos.templates.contains_key(&id) {
+                open.push(id);
+            }
+        }
+        let mut own = FxHashSet::default();
+        while let Some(id) = open.pop() {
+            if own.insert(id) {
+                open.extend(holders.get(&id).into_iter().flatten());
+            }
+        }
+        let own = Rc::new(own);
+        self.expansion.own.insert(index, Rc::clone(&own));
+        own
     }
 
     fn copy_node(&mut self, template: NodeId, copy: &mut Copy, values: &[Option<FieldValue>]) {

@@ -45,7 +45,11 @@ impl<'a> File<'_, '_, 'a, '_> {
     /// Says once that nothing moves.
     pub(super) fn report_routes(&mut self) {
         if self.routes > 0 {
-            let message = format!("{} ROUTEs have no effect on a static picture", self.routes);
+            let what = match self.routes {
+                1 => "a ROUTE has".to_owned(),
+                many => format!("{many} ROUTEs have"),
+            };
+            let message = format!("{what} no effect on a static picture");
             let hint = "fields keep the values that are written";
             self.problem(Severity::Note, "route", message, hint, Span::default());
         }

@@ -195,15 +195,16 @@ VRMLExtrusion: VRMLGeometry, Full, [],
     solid: SFBool = "TRUE";
     spine: MFVec3f = "[0 0 0, 0 1 0]";
 }
-VRMLText: VRMLGeometry, Planned, [],
+VRMLText: VRMLGeometry, Full, [],
     "Flat text." {
     string: MFString = "[]";
     fontStyle: SFNode = "NULL";
     maxExtent: SFFloat = "0";
     length: MFFloat = "[]";
 }
-VRMLFontStyle: Node, Planned, [],
-    "Size and looks of a Text." {
+VRMLFontStyle: Node, Partial, [],
+    "Size and looks of a Text. Of families SERIF, SANS and TYPEWRITER are known; `language` has no \
+     effect." {
     size: SFFloat = "1";
     family: MFString = "\"SERIF\"";
     style: SFString = "\"PLAIN\"";

@@ -93,7 +93,7 @@ impl Reach {
         let radius = scale * local.size().length() / 2.0;
         let distance = center.distance(self.center);
         // Not to be told, because something overflows: it counts as near.
-        !(distance > self.radius + radius)
+        distance <= self.radius + radius || distance.is_nan() || radius.is_nan()
     }
 }
 

@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use crate::graph::{Node, NodeId};
 use crate::registry::Class;
-use crate::resolve::not_supported;
 use crate::resolve::state::{Binding, ColorSource, Ordering, TexCoords};
 use crate::resolve::walk::Walk;
 use crate::scene::LightModel;
@@ -22,6 +21,7 @@ fn drawn_as(class: Class) -> Option<Class> {
         }
         Class::VRMLIndexedLineSet => Class::IndexedLineSet,
         Class::VRMLPointSet => Class::PointSet,
+        Class::VRMLText => Class::AsciiText,
         _ => return None,
     })
 }
@@ -40,8 +40,6 @@ impl Walk<'_> {
         let Some(drawn_as) = drawn_as(class) else {
             if ShapeMaker::knows(class) {
                 self.shape_as(class, id, shape, None);
-            } else if class == Class::VRMLText {
-                not_supported(&mut self.remarks, "Text", node.pos);
             } else {
                 self.remarks.warn(
                     "wrong-class",
@@ -107,6 +105,12 @@ impl Walk<'_> {
             self.state.hints.solid = node.flag("solid");
             self.state.hints.crease_angle_rad = node.number("creaseAngle");
         }
+        if class == Class::VRMLText {
+            self.state.font = self.part(node, "fontStyle", &[Class::VRMLFontStyle]);
+            let graph = self.graph;
+            let size = |id: NodeId| graph.node(id).number("size");
+            self.state.font_size = self.state.font.map_or(1.0, size);
+        }
         self.state.normals = None;
         if has("normal") {
             let normals = self.part(node, "normal", &[Class::VRMLNormal, Class::Normal]);
@@ -119,7 +123,6 @@ impl Walk<'_> {
             let list = self.part(node, "texCoord", &classes);
             self.state.texcoords = list.map_or(TexCoords::Default, TexCoords::List);
         }
-        let faces = matches!(drawn_as(class), Some(Class::IndexedFaceSet));
         let lines = matches!(class, Class::VRMLIndexedLineSet | Class::VRMLPointSet);
         if lines {
             self.glow();
@@ -137,7 +140,6 @@ impl Walk<'_> {
                 };
             }
         }
-        debug_assert!(faces || !has("ccw"));
         true
     }
 

@@ -7,6 +7,7 @@ mod profile;
 mod solid;
 #[cfg(test)]
 mod tests;
+mod vrml;
 
 use std::collections::BTreeSet;
 
@@ -94,7 +95,10 @@ pub fn mesh(
         }
         return None;
     }
-    let found = font_of(job.graph, job.state.font);
+    let found = match job.state.font {
+        None if attributes.vrml2 => vrml::font(None),
+        font => font_of(job.graph, font),
+    };
     let face = Typeface::open(found.font, &job.graph.fonts)?;
     let lines = lines(&text, &face, attributes, remarks);
     if lines.iter().all(|line| line.glyphs.is_empty()) {
@@ -126,6 +130,21 @@ pub fn mesh(
 }
 
 fn text_of<'g>(job: &Job<'g>, node: &'g Node, remarks: &mut Remarks) -> Text<'g> {
+    if node.class() == Some(Class::VRMLText) {
+        let style = job.state.font.map(|id| job.graph.node(id));
+        let style = style.filter(|style| style.class() == Some(Class::VRMLFontStyle));
+        return Text {
+            strings: node.value("string").texts().iter().map(|s| &**s).collect(),
+            lengths: node.numbers("length"),
+            layout: vrml::layout(node, style),
+            solid: Solid {
+                front: true,
+                sides: false,
+                back: false,
+                profile: Profile::flat(),
+            },
+        };
+    }
     let major = match node.word("justification") {
         "RIGHT" => Justify::End,
         "CENTER" => Justify::Middle,
@@ -162,6 +181,9 @@ fn font_of(graph: &Graph, node: Option<NodeId>) -> Found {
     let Some(node) = node.map(|id| graph.node(id)) else {
         return font::find("", &[]);
     };
+    if node.class() == Some(Class::VRMLFontStyle) {
+        return vrml::font(Some(node));
+    }
     let name = node.text("name").map_or("", |name| name);
     let has_own_name = node.entry("name").is_some() && name != "defaultFont";
     if node.class() == Some(Class::FontStyle) && !has_own_name {

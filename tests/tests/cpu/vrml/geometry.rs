@@ -388,6 +388,42 @@ fn parts_of_round_shapes() {
     }
 }
 
+/// Where a text stands: its height is 0.8 above the base line at most, and 0.2 below.
+#[test]
+fn texts() {
+    let rows = [
+        // Fields, then from where to where it reaches along x and y, in heights, at the most.
+        ("string \"EEE\"", [0.0, 3.0], [0.0, 0.8]),
+        (
+            "string \"EEE\" fontStyle FontStyle { size 2 justify \"MIDDLE\" }",
+            [-3.0, 3.0],
+            [0.0, 1.6],
+        ),
+        (
+            "string \"EEE\" fontStyle FontStyle { justify [ \"END\" \"BEGIN\" ] }",
+            [-3.0, 0.0],
+            [-1.0, 0.0],
+        ),
+        ("string [ \"E\" \"E\" ]", [0.0, 1.0], [-1.0, 0.8]),
+        ("string \"EEE\" length 9", [0.0, 9.0], [0.0, 0.8]),
+        ("string \"EEE\" maxExtent 1", [0.0, 1.0], [0.0, 0.8]),
+    ];
+    for (fields, x, y) in rows {
+        let [low, high] = totals(&shape(&format!("Text {{ {fields} }}")))
+            .bounds
+            .expect("letters");
+        // Letters fill a good part of the room that is theirs.
+        for (axis, [from, to]) in [(0, x), (1, y)] {
+            let (low, high) = (low[axis], high[axis]);
+            let inside = low >= from - 0.05 && high <= to + 0.05;
+            assert!(
+                inside && high - low > 0.3 * (to - from),
+                "{fields}: {low} {high}"
+            );
+        }
+    }
+}
+
 #[test]
 fn shapes_that_are_not_there() {
     let rows: &[(&str, &[&str])] = &[
@@ -402,10 +438,7 @@ fn shapes_that_are_not_there() {
             &["wrong-class"],
         ),
         ("Shape { geometry Group { } }", &["wrong-class"]),
-        (
-            "Shape { geometry Text { string \"a\" } }",
-            &["not-supported"],
-        ),
+        ("Shape { geometry Text { } }", &[]),
         (
             "Shape { geometry Extrusion { spine [ 0 0 0 ] } }",
             &["bad-shape"],

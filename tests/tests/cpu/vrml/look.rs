@@ -129,6 +129,12 @@ fn one_mesh_for_many_uses() {
             2,
         ),
         (
+            "PROTO P [ field SFVec3f at 0 0 0 ] {
+                Transform { translation IS at children Shape { geometry Box { } } } }
+             P { } P { at 3 0 0 }",
+            2,
+        ),
+        (
             "Shape { geometry DEF S Extrusion { } } Shape { geometry USE S } Shape { geometry USE S }",
             3,
         ),
