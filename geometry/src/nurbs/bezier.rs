@@ -10,6 +10,9 @@ use super::knots::Knots;
 /// parts of a quotient one by one; on a quarter of the piece these are nearly the same.
 const HALVINGS: usize = 2;
 
+/// What a Bezier point is made of: factors of the span's control points.
+pub(super) type Row = [f64; MAX_ORDER];
+
 /// Homogeneous control points of a piece, `u` fastest: `(p + 1) * (q + 1)` for degrees `p`, `q`.
 #[derive(Clone)]
 pub(super) struct Patch {
@@ -38,7 +41,7 @@ pub(super) fn bound_work(p: usize, q: usize) -> usize {
 }
 
 /// The Bezier combinations of a span, one row for each point.
-pub(super) fn combinations(knots: &Knots, span: usize) -> Vec<[f64; MAX_ORDER]> {
+pub(super) fn combinations(knots: &Knots, span: usize) -> Vec<Row> {
     let mut rows = vec![[0.0; MAX_ORDER]; knots.order()];
     for (k, row) in rows.iter_mut().enumerate() {
         knots.bezier_combination(span, k, row);
@@ -48,13 +51,9 @@ pub(super) fn combinations(knots: &Knots, span: usize) -> Vec<[f64; MAX_ORDER]> 
 
 impl Patch {
     /// From rows of combinations and the control points they combine: point (i, j) is `at(i, j)`.
-    pub fn new(
-        u: &[[f64; MAX_ORDER]],
-        v: &[[f64; MAX_ORDER]],
-        at: impl Fn(usize, usize) -> DVec4,
-    ) -> Self {
+    pub fn new(u: &[Row], v: &[Row], at: impl Fn(usize, usize) -> DVec4) -> Self {
         let (nu, nv) = (u.len(), v.len());
-        let combine = |row: &[f64; MAX_ORDER], points: &mut dyn Iterator<Item = DVec4>| {
+        let combine = |row: &Row, points: &mut dyn Iterator<Item = DVec4>| {
             points
                 .zip(row)
                 .fold(DVec4::ZERO, |sum, (p, &factor)| sum + p * factor)

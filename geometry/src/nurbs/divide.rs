@@ -12,7 +12,7 @@
 //! So any triangle may be used that stays in one cell of a grid that holds all knots, and pieces
 //! that share a border divide it alike.
 
-use super::bezier::Bounds;
+use super::bezier::{Bounds, Row, combinations};
 use super::curve::Curve;
 use super::knots::Knots;
 use super::surface::Surface;
@@ -66,14 +66,28 @@ pub(super) fn curve_divisions(
         .iter()
         .map(|&span| curve.patch(span).bounds())
         .collect();
+    // One part a span, at the least.
+    let limit = fineness
+        .most_points
+        .clamp(bounds.len(), MAX_POLYLINE_POINTS.max(bounds.len())) as f64;
+    let mut turn_rad = fineness.turn_rad;
     loop {
-        let wanted = |b: &Bounds| divisions(b.uu, b.turn_u_rad, 1.0, chord, fineness.turn_rad);
+        let wanted = |b: &Bounds| divisions(b.uu, b.turn_u_rad, 1.0, chord, turn_rad);
         let total: f64 = bounds.iter().map(wanted).sum();
-        // What is left over where all tolerance is in vain: one for each span.
-        if total <= MAX_POLYLINE_POINTS.max(2 * bounds.len()) as f64 {
+        if total <= limit {
             return Ok((bounds.iter().map(|b| wanted(b) as usize).collect(), chord));
         }
-        chord *= f64::max(2.0, total / MAX_POLYLINE_POINTS as f64);
+        widen(&mut chord, &mut turn_rad, total / limit);
+    }
+}
+
+/// Gives up some fineness where too many parts are asked for by a factor: first the turn, which
+/// only serves looks.
+fn widen(chord: &mut f64, turn_rad: &mut f64, excess: f64) {
+    if turn_rad.is_finite() {
+        *turn_rad = f64::INFINITY;
+    } else {
+        *chord *= excess.max(2.0);
     }
 }
 
@@ -104,32 +118,32 @@ pub(super) fn surface_grid(
     let mut chord = checked(fineness)?;
     let (pieces_u, pieces_v) = (surface.u.spans().len(), surface.v.spans().len());
     let mut bounds = Vec::with_capacity(pieces_u * pieces_v);
+    let spans_u = surface.u.spans().iter();
+    let rows_u: Vec<Vec<Row>> = spans_u.map(|&s| combinations(&surface.u, s)).collect();
     for &span_v in surface.v.spans() {
-        for &span_u in surface.u.spans() {
-            bounds.push(surface.patch(span_u, span_v).bounds());
+        let rows_v = combinations(&surface.v, span_v);
+        for (&span_u, rows_u) in surface.u.spans().iter().zip(&rows_u) {
+            let patch = surface.patch((span_u, rows_u), (span_v, &rows_v));
+            bounds.push(patch.bounds());
         }
     }
     let per_vertex = surface.u.order() * surface.v.order();
-    let limit = (MAX_VERTEX_WORK / per_vertex) as f64;
+    let hard_limit = (MAX_VERTEX_WORK / per_vertex) as f64;
     let mut u = intervals(&surface.u, extra.0);
     let mut v = intervals(&surface.v, extra.1);
+    // One part a span, at the least.
+    let fewest = (u.len() * v.len()) as f64;
+    if fewest > hard_limit {
+        return Err(NurbsError::TooLarge);
+    }
+    let limit = (fineness.most_points as f64).clamp(fewest, hard_limit);
+    let mut turn_rad = fineness.turn_rad;
     loop {
-        let total = divide(
-            &mut u,
-            &mut v,
-            &bounds,
-            pieces_u,
-            chord,
-            fineness.turn_rad,
-            limit,
-        );
-        if total <= limit || (u.len() * v.len()) as f64 >= limit {
+        let total = divide(&mut u, &mut v, &bounds, pieces_u, chord, turn_rad, limit);
+        if total <= limit {
             break;
         }
-        chord *= f64::max(2.0, total / limit);
-    }
-    if (u.len() * v.len()) as f64 >= limit {
-        return Err(NurbsError::TooLarge);
+        widen(&mut chord, &mut turn_rad, total / limit);
     }
     let steepest = |f: fn(&Bounds) -> f64, knots: &Knots, piece: &dyn Fn(usize) -> usize| {
         let slope = |(k, b): (usize, &Bounds)| {

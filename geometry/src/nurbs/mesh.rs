@@ -104,7 +104,8 @@ impl Surface {
             }
         }
         let mut mesh = maker.finish();
-        mesh.chord_bound = if trimmed { 2.0 } else { 1.0 } * grid.chord_bound;
+        let border = outline.map_or(0.0, |o| o.chord_bound);
+        mesh.chord_bound = grid.chord_bound + border;
         Ok(mesh)
     }
 }

@@ -80,6 +80,9 @@ pub struct Fineness {
     /// parts, so that small round parts of large shapes look round; infinite to let the chord
     /// alone decide. Never divides a span more than 16 times as finely as the chord asks for.
     pub turn_rad: f64,
+    /// The most points; the chord is widened to keep it, but for one part a span.
+    /// [`MAX_VERTEX_WORK`] and [`MAX_POLYLINE_POINTS`] hold as well.
+    pub most_points: usize,
 }
 
 /// Why there is no curve or surface.

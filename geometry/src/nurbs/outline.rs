@@ -26,6 +26,8 @@ pub struct TrimLoop {
 pub(super) struct Outline {
     /// Closed: the last point is joined to the first.
     pub loops: Vec<Vec<DVec2>>,
+    /// The distance that they keep to the curves, in scaled parameters.
+    pub chord_bound: f64,
     /// Counts around a place that no loop goes around: 1 if the outermost loops are holes.
     base: i32,
     /// Edges that cross each of a row of bands of `v`.
@@ -41,12 +43,17 @@ impl TrimLoop {
         fineness: &Fineness,
         scale: DVec2,
         room: &mut usize,
+        chord_bound: &mut f64,
     ) -> Result<Vec<DVec2>, NurbsError> {
         let mut polygon: Vec<DVec2> = Vec::new();
         for piece in &self.pieces {
             let points = match piece {
                 TrimPiece::Line(points) => points.clone(),
-                TrimPiece::Curve(curve) => flattened(curve, fineness, scale)?,
+                TrimPiece::Curve(curve) => {
+                    let (points, bound) = flattened(curve, fineness, scale)?;
+                    *chord_bound = chord_bound.max(bound);
+                    points
+                }
             };
             for p in points {
                 // NaN fails as well.
@@ -66,7 +73,12 @@ impl TrimLoop {
     }
 }
 
-fn flattened(curve: &Curve, fineness: &Fineness, scale: DVec2) -> Result<Vec<DVec2>, NurbsError> {
+/// The points of a curve, and the chord that they keep.
+fn flattened(
+    curve: &Curve,
+    fineness: &Fineness,
+    scale: DVec2,
+) -> Result<(Vec<DVec2>, f64), NurbsError> {
     // A direction in which the surface does not extend needs no accuracy.
     let scaled = |h: &DVec4| DVec4::new(h.x * scale.x, h.y * scale.y, 0.0, h.w);
     let measured = Curve {
@@ -75,11 +87,8 @@ fn flattened(curve: &Curve, fineness: &Fineness, scale: DVec2) -> Result<Vec<DVe
     };
     let line = measured.polyline(fineness)?;
     // The points are those of the curve as given, so that what lies on the border stays there.
-    Ok(line
-        .parameters
-        .iter()
-        .map(|&t| curve.point(t).truncate())
-        .collect())
+    let places = line.parameters.iter().map(|&t| curve.point(t).truncate());
+    Ok((places.collect(), line.chord_bound))
 }
 
 /// Twice the area; positive if counter-clockwise.
@@ -103,8 +112,9 @@ impl Outline {
     ) -> Result<Option<Self>, NurbsError> {
         let mut room = MAX_POLYLINE_POINTS;
         let mut polygons = Vec::new();
+        let mut chord_bound = fineness.chord;
         for trim in loops {
-            let polygon = trim.flattened(fineness, scale, &mut room)?;
+            let polygon = trim.flattened(fineness, scale, &mut room, &mut chord_bound)?;
             if polygon.len() > 2 && doubled_area(&polygon) != 0.0 {
                 polygons.push(polygon);
             }
@@ -120,6 +130,7 @@ impl Outline {
         }
         let mut outline = Self {
             loops: polygons,
+            chord_bound,
             base: 0,
             bands: Vec::new(),
             low_v: low.y,

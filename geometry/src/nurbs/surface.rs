@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4, Vec4Swizzles};
 
-use super::bezier::{Patch, bound_work, combinations};
+use super::bezier::{Patch, Row, bound_work, combinations};
 use super::curve::checked_points;
 use super::knots::Knots;
 use super::{COINCIDENT, MAX_BOUND_WORK, MAX_CONTROL_POINTS, NurbsError};
@@ -142,16 +142,18 @@ impl Surface {
         })
     }
 
-    /// The polynomial piece of two spans.
-    pub(super) fn patch(&self, span_u: usize, span_v: usize) -> Patch {
+    /// The polynomial piece of two spans, from their combinations.
+    pub(super) fn patch(
+        &self,
+        (span_u, rows_u): (usize, &[Row]),
+        (span_v, rows_v): (usize, &[Row]),
+    ) -> Patch {
         let first_u = self.u.first_point(span_u);
         let first_v = self.v.first_point(span_v);
         let width = self.u.count();
-        Patch::new(
-            &combinations(&self.u, span_u),
-            &combinations(&self.v, span_v),
-            |i, j| self.points[(first_v + j) * width + first_u + i],
-        )
+        Patch::new(rows_u, rows_v, |i, j| {
+            self.points[(first_v + j) * width + first_u + i]
+        })
     }
 
     /// The diagonal of the box around the control points.

@@ -68,6 +68,7 @@ pub(super) fn chord(chord: f64) -> Fineness {
     Fineness {
         chord,
         turn_rad: f64::INFINITY,
+        most_points: usize::MAX,
     }
 }
 
@@ -483,7 +484,12 @@ fn turns_divide_what_is_small_beside_the_chord() {
         (1e3, PI / 16.0, 4),
     ];
     for (chord, turn_rad, segments) in rows {
-        let line = curve.polyline(&Fineness { chord, turn_rad }).unwrap();
+        let fineness = Fineness {
+            chord,
+            turn_rad,
+            most_points: usize::MAX,
+        };
+        let line = curve.polyline(&fineness).unwrap();
         assert_eq!(line.points.len() - 1, segments, "{chord} {turn_rad}");
     }
 }
@@ -551,6 +557,20 @@ fn a_tolerance_beyond_the_limits_is_widened() {
     let line = Curve::new(circle(), CIRCLE_KNOTS.to_vec()).unwrap();
     let line = line.polyline(&chord(1e-300)).unwrap();
     assert!(line.points.len() <= MAX_POLYLINE_POINTS + 1 && line.chord_bound > 1e-300);
+    // A number of points asked for.
+    for most_points in [0, 5, 100, 5000] {
+        let few = Fineness {
+            most_points,
+            ..chord(1e-6)
+        };
+        let mesh = sphere().surface().triangles(&few, (&[], &[]), &[]).unwrap();
+        let cells = mesh.triangles.len() / 2;
+        assert!(
+            cells <= most_points.max(8) && cells >= most_points / 8,
+            "{cells}"
+        );
+        assert!(mesh.chord_bound > 1e-6 && largest_error(&sphere(), &mesh) <= mesh.chord_bound);
+    }
     // Numbers near the limits.
     let huge = Net {
         points: circle()

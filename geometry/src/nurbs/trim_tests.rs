@@ -159,7 +159,7 @@ fn areas_are_those_of_what_is_left_of_the_loops() {
                 .triangles(&chord(tolerance), (&[], &[]), &loops)
                 .unwrap();
             assert_eq!(mesh.trim_crossings, 0, "{name}");
-            assert_eq!(mesh.chord_bound, tolerance, "{name}");
+            assert!(mesh.chord_bound <= tolerance, "{name}");
             // A chord apart from all of the loops' length, at most.
             let length = 4.0 * 4.0 + 2.0 * PI * 4.0 * 0.9;
             let error = (area(&mesh) - 16.0 * part).abs();

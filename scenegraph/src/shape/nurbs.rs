@@ -22,6 +22,13 @@ use super::primitives::slices;
 use super::profiles::trim_loops;
 use super::texcoords::{function, transformed};
 
+/// Vertices for each control point, unless a chord is asked for: so large weights or wild nets, and
+/// small files of many, do not become large models. A patch of a teapot takes about 15.
+const POINTS_EACH: usize = 64;
+
+/// Vertices that every shape may have, however few its control points.
+const MIN_POINTS: usize = 16_384;
+
 /// Whether a class is made here.
 pub fn is_nurbs(class: Class) -> bool {
     is_trimmed(class) || matches!(class, Class::NurbsCurve | Class::IndexedNurbsCurve)
@@ -50,11 +57,12 @@ pub fn mesh(job: &Job<'_>, attributes: &Attributes<'_>, remarks: &mut Remarks) -
 /// How finely a shape is cut whose control points have a box with this diagonal: as asked for, or
 /// with as many slices `n` to a full turn as a sphere of that complexity has, and a chord of at most
 /// `1 - cos(pi / n)` of the diagonal, which is what such slices miss of a radius.
-fn fineness(job: &Job<'_>, diagonal: f64) -> Fineness {
+fn fineness(job: &Job<'_>, diagonal: f64, points: usize) -> Fineness {
     if let Some(chord) = job.chord {
         return Fineness {
             chord,
             turn_rad: f64::INFINITY,
+            most_points: usize::MAX,
         };
     }
     let n = f64::from(slices(job.state.complexity));
@@ -62,6 +70,7 @@ fn fineness(job: &Job<'_>, diagonal: f64) -> Fineness {
         // A shape whose points are all in one place has nothing to divide.
         chord: (diagonal * (1.0 - (std::f64::consts::PI / n).cos())).max(f64::MIN_POSITIVE),
         turn_rad: std::f64::consts::TAU / n,
+        most_points: MIN_POINTS.max(POINTS_EACH.saturating_mul(points)),
     }
 }
 
@@ -71,10 +80,10 @@ fn warn_coarse(asked: f64, bound: f64, attributes: &Attributes<'_>, remarks: &mu
         remarks.warn(
             "coarse-nurbs",
             &format!(
-                "{} is cut more coarsely than asked for",
+                "{} is cut more coarsely than its chord tolerance asks for",
                 attributes.node.class_name()
             ),
-            "it would have too many triangles",
+            "it would have too many parts",
             attributes.pos,
         );
     }
@@ -140,7 +149,7 @@ fn curve(
     }
     let points = control_points(attributes, count)?;
     let curve = Curve::new(points, knots(attributes, "knotVector"))?;
-    let fineness = fineness(job, curve.diagonal());
+    let fineness = fineness(job, curve.diagonal(), count);
     let line = curve.polyline(&fineness)?;
     warn_coarse(fineness.chord, line.chord_bound, attributes, remarks);
     let mut mesh = empty_mesh(Topology::Lines, attributes);
@@ -169,7 +178,7 @@ fn surface(
     let texture = Texture::of(attributes, &surface, remarks);
     let lines = texture.as_ref().map_or((&[][..], &[][..]), Texture::knots);
     let trim = trim_loops(job, remarks);
-    let fineness = fineness(job, surface.diagonal());
+    let fineness = fineness(job, surface.diagonal(), total);
     let made = surface.triangles(&fineness, lines, &trim)?;
     warn_coarse(fineness.chord, made.chord_bound, attributes, remarks);
     if made.trim_crossings > 0 {

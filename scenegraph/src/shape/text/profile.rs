@@ -59,6 +59,7 @@ pub fn of(job: &Job<'_>, tolerance: f64, remarks: &mut Remarks) -> Profile {
                 let fineness = Fineness {
                     chord: tolerance,
                     turn_rad: std::f64::consts::TAU / f64::from(slices(job.state.complexity)),
+                    most_points: MAX_POINTS,
                 };
                 let line = curve.polyline(&fineness);
                 line.map_or_else(
