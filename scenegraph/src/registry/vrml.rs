@@ -195,15 +195,15 @@ VRMLExtrusion: VRMLGeometry, Full, [],
     solid: SFBool = "TRUE";
     spine: MFVec3f = "[0 0 0, 0 1 0]";
 }
-VRMLText: VRMLGeometry, Planned, [],
+VRMLText: VRMLGeometry, Full, [],
     "Flat text." {
     string: MFString = "[]";
     fontStyle: SFNode = "NULL";
     maxExtent: SFFloat = "0";
     length: MFFloat = "[]";
 }
-VRMLFontStyle: Node, Planned, [],
-    "Size and looks of a Text." {
+VRMLFontStyle: Node, Full, [],
+    "Size, looks and layout of a Text; language is not used." {
     size: SFFloat = "1";
     family: MFString = "\"SERIF\"";
     style: SFString = "\"PLAIN\"";

@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use crate::graph::{Node, NodeId};
 use crate::registry::Class;
-use crate::resolve::not_supported;
 use crate::resolve::state::{Binding, ColorSource, Ordering, TexCoords};
 use crate::resolve::walk::Walk;
 use crate::scene::LightModel;
@@ -40,8 +39,6 @@ impl Walk<'_> {
         let Some(drawn_as) = drawn_as(class) else {
             if ShapeMaker::knows(class) {
                 self.shape_as(class, id, shape, None);
-            } else if class == Class::VRMLText {
-                not_supported(&mut self.remarks, "Text", node.pos);
             } else {
                 self.remarks.warn(
                     "wrong-class",
