@@ -7,6 +7,9 @@
 mod decimal;
 mod expand;
 mod include;
+#[cfg(test)]
+mod kit_tests;
+mod kits;
 mod names;
 mod node;
 mod proto;
@@ -120,6 +123,7 @@ impl Builder<'_> {
                 owner: iv_parser::NodeId(0),
                 scope: None,
                 vrml2: header.dialect == Dialect::Vrml2,
+                compounds: Vec::new(),
                 routes: 0,
                 guesses: FxHashMap::default(),
                 dropped: 0,
@@ -238,6 +242,8 @@ struct File<'b, 't, 'a, 'l> {
     scope: Scope,
     /// The file is VRML 2.
     vrml2: bool,
+    /// Parts of parts of kits met so far.
+    compounds: Vec<kits::Compound>,
     /// ROUTEs met so far.
     routes: usize,
     /// Hints for the unknown classes met so far.

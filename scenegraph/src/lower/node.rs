@@ -4,12 +4,13 @@ use iv_parser::{
     Atom, Child, FieldId, Form, Item, NodeId as TreeId, Severity, Span, Value, text_of,
 };
 
+use super::kits::{self, Compound};
 use super::names::display_name;
 use super::upgrade::OldValue;
 use super::value::Reader;
 use super::{File, swept, upgrade};
 use crate::graph::{FieldEntry, FieldValue, Kind, Node, NodeId};
-use crate::registry::{Class, ClassSpec, FieldSpec};
+use crate::registry::{Class, ClassSpec, Family, FieldSpec};
 
 /// Words that describe an extension node to readers that do not know it; in nodes that are known
 /// they say nothing new.
@@ -22,11 +23,15 @@ impl<'a> File<'_, '_, 'a, '_> {
         self.builder.nodes.reserve(count);
         let mut splits = Vec::new();
         let mut swept = Vec::new();
+        let mut kits = Vec::new();
         for i in 0..count as u32 {
             let mut old = Vec::new();
             let node = self.node(TreeId(i), &mut old);
             if node.class() == Some(Class::GeneralizedCylinder) {
                 swept.push(TreeId(i));
+            }
+            if node.class().is_some_and(|c| c.spec().family == Family::Kit) {
+                kits.push(NodeId(self.base + i));
             }
             self.builder.nodes.push(node);
             self.drop_surplus_problems();
@@ -37,6 +42,7 @@ impl<'a> File<'_, '_, 'a, '_> {
         for (id, old) in splits {
             upgrade::split(self, id, &old);
         }
+        kits::settle(self, kits);
         for id in swept {
             swept::expand(self, id);
         }
@@ -307,6 +313,18 @@ impl<'a> File<'_, '_, 'a, '_> {
         let field = tree.field(id);
         // Events of VRML have no values, and are in no list.
         if matches!(field.value, Value::Is(_)) {
+            return;
+        }
+        if spec.family == Family::Kit && field.name.contains(&b'.') {
+            let path = text_of(&field.name[..field.name.len().min(200)]);
+            if let Some(&part) = self.handles(&field.value).iter().flatten().next() {
+                self.compounds.push(Compound {
+                    kit: NodeId(self.base + self.owner.0),
+                    path,
+                    part,
+                    span: field.span,
+                });
+            }
             return;
         }
         let expected = DESCRIPTION.contains(&field.name) || spec.has_parts();

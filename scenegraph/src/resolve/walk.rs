@@ -175,6 +175,16 @@ impl<'g> Walk<'g> {
             Family::Light => self.light(class, id),
             Family::Camera => self.camera(class, id),
             Family::Vrml => self.vrml(class, id, node),
+            Family::Kit if class != Class::InteractionKit => {
+                self.kit(class, id, node.children.len());
+                true
+            }
+            Family::Kit | Family::Dragger => {
+                let text = format!("{} is a handle of an editor, and left out", spec.name);
+                self.remarks
+                    .add(Severity::Note, "dragger", &text, "", node.pos);
+                true
+            }
             Family::Information => {
                 self.note(class, node);
                 true
@@ -208,20 +218,7 @@ impl<'g> Walk<'g> {
             | Class::ExtSelection
             | Class::LocateHighlight
             | Class::WWWAnchor => self.open(id, 0, count, true),
-            Class::TransformSeparator => {
-                let State {
-                    base,
-                    relative,
-                    units_m,
-                    ..
-                } = self.state;
-                let keep = Keep::Matrix {
-                    base,
-                    relative,
-                    units_m,
-                };
-                self.push(id, 0, count, keep, None);
-            }
+            Class::TransformSeparator => self.open_transform(id, count),
             Class::Switch | Class::Blinker => {
                 let (first, end) = self.chosen(class, node);
                 if end - first < count {
@@ -246,6 +243,34 @@ impl<'g> Walk<'g> {
             Class::PathSwitch => not_supported(&mut self.remarks, class.name(), node.pos),
             _ => self.open(id, 0, count, false),
         }
+    }
+
+    /// A node kit, whose parts are its children. A kit that holds a Separator keeps its state to
+    /// itself; of a camera or a light the transform ends with the kit.
+    fn kit(&mut self, class: Class, id: NodeId, count: usize) {
+        match class {
+            Class::BaseKit | Class::AppearanceKit | Class::NodeKitListPart => {
+                self.open(id, 0, count, false);
+            }
+            Class::CameraKit | Class::LightKit => self.open_transform(id, count),
+            _ => self.open(id, 0, count, true),
+        }
+    }
+
+    /// A group that restores the matrix only.
+    fn open_transform(&mut self, id: NodeId, count: usize) {
+        let State {
+            base,
+            relative,
+            units_m,
+            ..
+        } = self.state;
+        let keep = Keep::Matrix {
+            base,
+            relative,
+            units_m,
+        };
+        self.push(id, 0, count, keep, None);
     }
 
     /// Says that something the source hides, or changes over time, is not in the scene.
