@@ -4,6 +4,7 @@
 //! Never fails: what cannot be used is reported and left out. Nodes of the tree and nodes of the
 //! graph correspond one to one, so no traversal is needed; only what upgrading adds comes behind.
 
+mod connect;
 mod decimal;
 mod expand;
 mod include;
@@ -124,6 +125,8 @@ impl Builder<'_> {
                 scope: None,
                 vrml2: header.dialect == Dialect::Vrml2,
                 compounds: Vec::new(),
+                links: Vec::new(),
+                inputs: connect::Inputs::default(),
                 routes: 0,
                 guesses: FxHashMap::default(),
                 dropped: 0,
@@ -244,6 +247,9 @@ struct File<'b, 't, 'a, 'l> {
     vrml2: bool,
     /// Parts of parts of kits met so far.
     compounds: Vec<kits::Compound>,
+    /// Connected fields without values met so far.
+    links: Vec<connect::Link>,
+    inputs: connect::Inputs,
     /// ROUTEs met so far.
     routes: usize,
     /// Hints for the unknown classes met so far.

@@ -4,13 +4,14 @@ use iv_parser::{
     Atom, Child, FieldId, Form, Item, NodeId as TreeId, Severity, Span, Value, text_of,
 };
 
+use super::connect::{self, Link};
 use super::kits::{self, Compound};
 use super::names::display_name;
 use super::upgrade::OldValue;
 use super::value::Reader;
 use super::{File, swept, upgrade};
 use crate::graph::{FieldEntry, FieldValue, Kind, Node, NodeId};
-use crate::registry::{Class, ClassSpec, Family, FieldSpec};
+use crate::registry::{Class, ClassSpec, Family, FieldSpec, FieldType};
 
 /// Words that describe an extension node to readers that do not know it; in nodes that are known
 /// they say nothing new.
@@ -42,6 +43,7 @@ impl<'a> File<'_, '_, 'a, '_> {
         for (id, old) in splits {
             upgrade::split(self, id, &old);
         }
+        connect::settle(self);
         kits::settle(self, kits);
         for id in swept {
             swept::expand(self, id);
@@ -224,21 +226,32 @@ impl<'a> File<'_, '_, 'a, '_> {
         }
         let value = self.value(spec, field_spec, id);
         if let Some(connection) = &field.connection {
-            // Looked up for the sake of its own remarks: a name that nobody has.
-            self.child(connection.master);
-            let subject = format!("`{}.{}`", spec.name, field_spec.name);
-            let kept = if value.is_some() {
-                "the value written is used"
-            } else {
-                "the field keeps its default"
-            };
-            self.problem(
-                Severity::Warning,
-                "connection",
-                format!("{subject} is connected to another field"),
-                &format!("connections are not evaluated; {kept}"),
-                field.span,
-            );
+            // A master that nobody has is said when it is looked up.
+            let master = self.child(connection.master);
+            match (&value, master) {
+                (None, Some(master)) => self.links.push(Link {
+                    slave: NodeId(self.base + self.owner.0),
+                    field: index as u16,
+                    ignored: field.ignored,
+                    master,
+                    output: text_of(&connection.output[..connection.output.len().min(80)]),
+                    span: field.span,
+                }),
+                (None, None) => {}
+                (Some(_), _) => self.problem(
+                    Severity::Note,
+                    "connection",
+                    format!(
+                        "`{}.{}` is connected to another field",
+                        spec.name, field_spec.name
+                    ),
+                    "the value written is used",
+                    field.span,
+                ),
+            }
+            if value.is_none() {
+                return;
+            }
         }
         let value = match value {
             None if field.ignored => super::read_default(field_spec),
@@ -292,6 +305,35 @@ impl<'a> File<'_, '_, 'a, '_> {
             .collect()
     }
 
+    /// An input of an engine that names the type of its inputs; false if it is none.
+    fn input(&mut self, spec: &ClassSpec, id: FieldId, node: &Node) -> bool {
+        let takes = matches!(
+            spec.class,
+            Class::Gate | Class::SelectOne | Class::Concatenate
+        );
+        let tree = self.tree;
+        let name = tree.field(id).name;
+        if !takes || !name.starts_with(b"input") {
+            return false;
+        }
+        let named = node.text("type");
+        let known = named.and_then(|name| FieldType::from_name(name.as_bytes()));
+        let Some(field_type) = known else {
+            return false;
+        };
+        let field_spec = FieldSpec {
+            name: "input",
+            field_type,
+            default: "",
+            words: &[],
+        };
+        if let Some(value) = self.value(spec, &field_spec, id) {
+            let key = (NodeId(self.base + self.owner.0), text_of(name).into());
+            self.inputs.insert(key, value);
+        }
+        true
+    }
+
     /// Whether a node describes a field of its own: `fields [ SFString maker ]`.
     fn declares(&self, id: TreeId, name: &[u8]) -> bool {
         let tree = self.tree;
@@ -325,6 +367,9 @@ impl<'a> File<'_, '_, 'a, '_> {
                     span: field.span,
                 });
             }
+            return;
+        }
+        if self.input(spec, id, node) {
             return;
         }
         let expected = DESCRIPTION.contains(&field.name) || spec.has_parts();
