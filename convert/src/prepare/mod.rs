@@ -90,7 +90,6 @@ fn with_meshes(scene: &Scene, meshes: Vec<Mesh>) -> Scene {
         environments: scene.environments.clone(),
         texts: scene.texts.clone(),
         files: scene.files.clone(),
-        texts: scene.texts.clone(),
     }
 }
 

@@ -78,6 +78,8 @@ pub(super) struct Walk<'g> {
     stack: Vec<Open>,
     frames: Vec<Frame>,
     steps: usize,
+    /// The text of the Info that was visited last, and how deep it stood.
+    hint: Option<(usize, Arc<str>)>,
 }
 
 impl<'g> Walk<'g> {
@@ -108,6 +110,7 @@ impl<'g> Walk<'g> {
             stack: Vec::new(),
             frames: Vec::new(),
             steps: 0,
+            hint: None,
         }
     }
 
@@ -150,6 +153,9 @@ impl<'g> Walk<'g> {
         }
         let graph = self.graph;
         let node = graph.node(id);
+        let depth = self.stack.len();
+        let hint = self.hint.take().filter(|(at, _)| *at == depth);
+        let hint = hint.map(|(_, text)| text);
         let class = match node.kind {
             Kind::Known(class) => class,
             Kind::Unknown(_) if self.options.like_coin => return,
@@ -172,7 +178,7 @@ impl<'g> Walk<'g> {
                 self.group(class, id, node);
                 true
             }
-            Family::Light => self.light(class, id),
+            Family::Light => self.light(class, id, hint.as_deref()),
             Family::Camera => self.camera(class, id),
             Family::Vrml => self.vrml(class, id, node),
             Family::Kit if class != Class::InteractionKit => {
@@ -203,6 +209,9 @@ impl<'g> Walk<'g> {
             Class::Info => "string",
             _ => return,
         };
+        if let (Class::Info, Some(text)) = (class, node.text(field)) {
+            self.hint = Some((self.stack.len(), Arc::clone(text)));
+        }
         if let (Some(frame), Some(text)) = (self.frames.last_mut(), node.text(field)) {
             frame.notes.push(Arc::clone(text));
         }
