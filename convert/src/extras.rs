@@ -128,6 +128,10 @@ pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
         {
             number(json, "dropOffRate", drop_off_rate, 0.0);
             number(json, "cutOffAngle", cut_off_angle_rad, FRAC_PI_4);
+            if let Some(beam) = light.beam {
+                json.key("beamWidthAngle").field(beam.inner_angle_rad);
+                json.key("concentrationExponent").field(beam.exponent);
+            }
         }
         index(json, "environment", light.environment.0);
     });

@@ -90,6 +90,11 @@ pub(crate) fn write(
         } = light.kind
         {
             let (inner, outer) = cone(drop_off_rate, cut_off_angle_rad);
+            // glTF's inner cone is of full strength, as that of a beam is.
+            let inner = light.beam.map_or(inner, |beam| {
+                let narrowest = outer * INNER_CONE_SHARE;
+                beam.inner_angle_rad.clamp(0.0, narrowest)
+            });
             json.key("spot").object(|json| {
                 json.key("innerConeAngle").f64(inner);
                 json.key("outerConeAngle").f64(outer);

@@ -88,8 +88,8 @@ fn with_meshes(scene: &Scene, meshes: Vec<Mesh>) -> Scene {
         cameras: scene.cameras.clone(),
         light_sets: scene.light_sets.clone(),
         environments: scene.environments.clone(),
-        files: scene.files.clone(),
         texts: scene.texts.clone(),
+        files: scene.files.clone(),
     }
 }
 

@@ -1,8 +1,10 @@
 //! `extras.iv` read back: Inventor's own values under the names of Inventor's fields. What the
 //! writer left out equals Inventor's default.
 
+use std::f64::consts::PI;
+
 use gltf::json::Extras;
-use scenegraph::scene::{Environment, Fog, FogType};
+use scenegraph::scene::{Beam, Environment, Fog, FogType};
 use serde_json::{Map, Value};
 
 /// The values of one object.
@@ -62,6 +64,15 @@ impl Iv {
     pub(crate) fn objects(&self, key: &str) -> impl Iterator<Item = Self> {
         let objects = self.list(key).iter().filter_map(Value::as_object);
         objects.map(|object| Self(object.clone()))
+    }
+
+    /// The values as those of a spot light's beam, if they are.
+    pub(crate) fn beam(&self) -> Option<Beam> {
+        self.0.get("beamWidthAngle")?;
+        Some(Beam {
+            inner_angle_rad: self.number("beamWidthAngle", 0.0).clamp(0.0, PI),
+            exponent: self.number("concentrationExponent", 1.0).max(0.0),
+        })
     }
 
     /// The values as those of an `Environment`.

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4, PI};
 use glam::DVec3;
 use gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
 use gltf::json::validation::Checked;
-use scenegraph::scene::{Environment, EnvironmentId, Light, LightKind, Placement};
+use scenegraph::scene::{Beam, Environment, EnvironmentId, Light, LightKind, Placement};
 
 use super::iv::Iv;
 use crate::color::{srgb_from_linear, unit};
@@ -30,6 +30,7 @@ pub(crate) struct Lamp {
     color_srgb: [f64; 3],
     intensity: f64,
     attenuation: [f64; 3],
+    beam: Option<Beam>,
     /// Its environment, if the file says.
     pub(crate) environment: Option<usize>,
 }
@@ -71,6 +72,7 @@ impl Lamp {
                 color_srgb: iv.triple("color", [1.0; 3]),
                 intensity: iv.number("intensity", 1.0),
                 attenuation: iv.triple("attenuation", default),
+                beam: iv.beam(),
                 environment: iv.index("environment"),
             },
             None => Self {
@@ -78,6 +80,7 @@ impl Lamp {
                 color_srgb: source.color.map(|v| srgb_from_linear(v.into())),
                 intensity: f64::from(source.intensity.clamp(0.0, f32::MAX)) / PI,
                 attenuation: if directional { default } else { INVERSE_SQUARE },
+                beam: None,
                 environment: None,
             },
         })
@@ -102,6 +105,7 @@ impl Lamp {
             kind: self.kind,
             color_srgb: self.color_srgb,
             intensity: self.intensity,
+            beam: self.beam,
             environment: EnvironmentId(environment as u32),
         }
     }

@@ -206,6 +206,7 @@ impl Build {
             kind,
             color_srgb: [1.0; 3],
             intensity: 1.0,
+            beam: None,
             environment: EnvironmentId(0),
         });
     }

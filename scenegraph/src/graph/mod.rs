@@ -88,13 +88,16 @@ impl Graph {
         &self.nodes[id.0 as usize]
     }
 
-    /// The names of fonts that `Font` and `FontStyle` nodes give, in their order.
+    /// The names of fonts that nodes give, in their order.
     pub fn font_names(&self) -> impl Iterator<Item = &Arc<str>> {
-        let fonts = (self.nodes.iter())
-            .filter(|node| matches!(node.class(), Some(Class::Font | Class::FontStyle)));
-        fonts
-            .filter(|node| node.entry("name").is_some())
-            .filter_map(|node| node.text("name"))
+        self.nodes.iter().flat_map(|node| {
+            let field = match node.class() {
+                Some(Class::Font | Class::FontStyle) => "name",
+                Some(Class::VRMLFontStyle) => "family",
+                _ => return &[][..],
+            };
+            node.entry(field).map_or(&[][..], |f| f.value.texts())
+        })
     }
 
     /// All nodes, in the order in which they were read.

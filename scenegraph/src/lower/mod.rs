@@ -4,9 +4,13 @@
 //! Never fails: what cannot be used is reported and left out. Nodes of the tree and nodes of the
 //! graph correspond one to one, so no traversal is needed; only what upgrading adds comes behind.
 
+mod connect;
 mod decimal;
 mod expand;
 mod include;
+#[cfg(test)]
+mod kit_tests;
+mod kits;
 mod names;
 mod node;
 mod proto;
@@ -120,6 +124,9 @@ impl Builder<'_> {
                 owner: iv_parser::NodeId(0),
                 scope: None,
                 vrml2: header.dialect == Dialect::Vrml2,
+                compounds: Vec::new(),
+                links: Vec::new(),
+                inputs: connect::Inputs::default(),
                 routes: 0,
                 guesses: FxHashMap::default(),
                 dropped: 0,
@@ -238,6 +245,11 @@ struct File<'b, 't, 'a, 'l> {
     scope: Scope,
     /// The file is VRML 2.
     vrml2: bool,
+    /// Parts of parts of kits met so far.
+    compounds: Vec<kits::Compound>,
+    /// Connected fields without values met so far.
+    links: Vec<connect::Link>,
+    inputs: connect::Inputs,
     /// ROUTEs met so far.
     routes: usize,
     /// Hints for the unknown classes met so far.

@@ -4,12 +4,14 @@ use iv_parser::{
     Atom, Child, FieldId, Form, Item, NodeId as TreeId, Severity, Span, Value, text_of,
 };
 
+use super::connect::{self, Link};
+use super::kits::{self, Compound};
 use super::names::display_name;
 use super::upgrade::OldValue;
 use super::value::Reader;
 use super::{File, swept, upgrade};
 use crate::graph::{FieldEntry, FieldValue, Kind, Node, NodeId};
-use crate::registry::{Class, ClassSpec, FieldSpec};
+use crate::registry::{Class, ClassSpec, Family, FieldSpec, FieldType};
 
 /// Words that describe an extension node to readers that do not know it; in nodes that are known
 /// they say nothing new.
@@ -22,11 +24,15 @@ impl<'a> File<'_, '_, 'a, '_> {
         self.builder.nodes.reserve(count);
         let mut splits = Vec::new();
         let mut swept = Vec::new();
+        let mut kits = Vec::new();
         for i in 0..count as u32 {
             let mut old = Vec::new();
             let node = self.node(TreeId(i), &mut old);
             if node.class() == Some(Class::GeneralizedCylinder) {
                 swept.push(TreeId(i));
+            }
+            if node.class().is_some_and(|c| c.spec().family == Family::Kit) {
+                kits.push(NodeId(self.base + i));
             }
             self.builder.nodes.push(node);
             self.drop_surplus_problems();
@@ -37,6 +43,8 @@ impl<'a> File<'_, '_, 'a, '_> {
         for (id, old) in splits {
             upgrade::split(self, id, &old);
         }
+        connect::settle(self);
+        kits::settle(self, kits);
         for id in swept {
             swept::expand(self, id);
         }
@@ -222,21 +230,32 @@ impl<'a> File<'_, '_, 'a, '_> {
         }
         let value = self.value(spec, field_spec, id);
         if let Some(connection) = &field.connection {
-            // Looked up for the sake of its own remarks: a name that nobody has.
-            self.child(connection.master);
-            let subject = format!("`{}.{}`", spec.name, field_spec.name);
-            let kept = if value.is_some() {
-                "the value written is used"
-            } else {
-                "the field keeps its default"
-            };
-            self.problem(
-                Severity::Warning,
-                "connection",
-                format!("{subject} is connected to another field"),
-                &format!("connections are not evaluated; {kept}"),
-                field.span,
-            );
+            // A master that nobody has is said when it is looked up.
+            let master = self.child(connection.master);
+            match (&value, master) {
+                (None, Some(master)) => self.links.push(Link {
+                    slave: NodeId(self.base + self.owner.0),
+                    field: index as u16,
+                    ignored: field.ignored,
+                    master,
+                    output: text_of(&connection.output[..connection.output.len().min(80)]),
+                    span: field.span,
+                }),
+                (None, None) => {}
+                (Some(_), _) => self.problem(
+                    Severity::Note,
+                    "connection",
+                    format!(
+                        "`{}.{}` is connected to another field",
+                        spec.name, field_spec.name
+                    ),
+                    "the value written is used",
+                    field.span,
+                ),
+            }
+            if value.is_none() {
+                return;
+            }
         }
         let value = match value {
             None if field.ignored => super::read_default(field_spec),
@@ -290,6 +309,35 @@ impl<'a> File<'_, '_, 'a, '_> {
             .collect()
     }
 
+    /// An input of an engine that names the type of its inputs; false if it is none.
+    fn input(&mut self, spec: &ClassSpec, id: FieldId, node: &Node) -> bool {
+        let takes = matches!(
+            spec.class,
+            Class::Gate | Class::SelectOne | Class::Concatenate
+        );
+        let tree = self.tree;
+        let name = tree.field(id).name;
+        if !takes || !name.starts_with(b"input") {
+            return false;
+        }
+        let named = node.text("type");
+        let known = named.and_then(|name| FieldType::from_name(name.as_bytes()));
+        let Some(field_type) = known else {
+            return false;
+        };
+        let field_spec = FieldSpec {
+            name: "input",
+            field_type,
+            default: "",
+            words: &[],
+        };
+        if let Some(value) = self.value(spec, &field_spec, id) {
+            let key = (NodeId(self.base + self.owner.0), text_of(name).into());
+            self.inputs.insert(key, value);
+        }
+        true
+    }
+
     /// Whether a node describes a field of its own: `fields [ SFString maker ]`.
     fn declares(&self, id: TreeId, name: &[u8]) -> bool {
         let tree = self.tree;
@@ -311,6 +359,21 @@ impl<'a> File<'_, '_, 'a, '_> {
         let field = tree.field(id);
         // Events of VRML have no values, and are in no list.
         if matches!(field.value, Value::Is(_)) {
+            return;
+        }
+        if spec.family == Family::Kit && field.name.contains(&b'.') {
+            let path = text_of(&field.name[..field.name.len().min(200)]);
+            if let Some(&part) = self.handles(&field.value).iter().flatten().next() {
+                self.compounds.push(Compound {
+                    kit: NodeId(self.base + self.owner.0),
+                    path,
+                    part,
+                    span: field.span,
+                });
+            }
+            return;
+        }
+        if self.input(spec, id, node) {
             return;
         }
         let expected = DESCRIPTION.contains(&field.name) || spec.has_parts();

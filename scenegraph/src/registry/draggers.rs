@@ -4,56 +4,56 @@
 macro_rules! draggers {
     ([$next:ident $($rest:ident)*] $($seen:tt)*) => { $next! { [$($rest)*] $($seen)* Dragger {
 
-CenterballDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION],
+CenterballDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION],
     "Turns, and moves its centre." {
     center: SFVec3f = "0 0 0";
 }
-DirectionalLightDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION],
+DirectionalLightDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION],
     "Aims and moves a parallel light." {}
-DragPointDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
+DragPointDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
     "Moves along lines and planes." {}
-HandleBoxDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, TRANSLATION, SCALE],
+HandleBoxDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, TRANSLATION, SCALE],
     "Moves and scales by a box." {}
-JackDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION, SCALE],
+JackDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION, SCALE],
     "Moves, turns and scales by a jack." {}
-PointLightDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
+PointLightDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
     "Moves a light." {}
-RotateCylindricalDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION],
+RotateCylindricalDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION],
     "Turns about an axis by a cylinder." {}
-RotateDiscDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION],
+RotateDiscDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION],
     "Turns about an axis by a disc." {}
-RotateSphericalDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION],
+RotateSphericalDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION],
     "Turns by a sphere." {}
-Scale1Dragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, SCALE],
+Scale1Dragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, SCALE],
     "Scales along a line." {}
-Scale2Dragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, SCALE],
+Scale2Dragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, SCALE],
     "Scales in a plane." {}
-Scale2UniformDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, SCALE],
+Scale2UniformDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, SCALE],
     "Scales in a plane evenly." {}
-ScaleUniformDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, SCALE],
+ScaleUniformDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, SCALE],
     "Scales evenly." {}
-SpotLightDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION],
+SpotLightDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION],
     "Moves and aims a spotlight and sets its angle." {
     angle: SFFloat = "1";
 }
-TabBoxDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, TRANSLATION, SCALE],
+TabBoxDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, TRANSLATION, SCALE],
     "Moves and scales by a box with tabs." {}
-TabPlaneDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, TRANSLATION, SCALE],
+TabPlaneDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, TRANSLATION, SCALE],
     "Moves and scales in a plane." {}
-TrackballDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION, SCALE],
+TrackballDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION, SCALE],
     "Turns and scales by a ball." {}
-TransformBoxDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION, SCALE],
+TransformBoxDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION, SCALE],
     "Moves, turns and scales by a box." {}
-TransformerDragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION, SCALE],
+TransformerDragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, ROTATION, TRANSLATION, SCALE],
     "Moves, turns and scales by a box with axes." {
     minDiscRotDot: SFFloat = "0.025";
 }
-Translate1Dragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
+Translate1Dragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
     "Moves along a line." {
     minTranslation: SFFloat = "1";
     maxTranslation: SFFloat = "0";
 }
-Translate2Dragger: Dragger, Planned, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
+Translate2Dragger: Dragger, Kept, [KIT, SEPARATOR, DRAGGER, TRANSLATION],
     "Moves in a plane." {
     minTranslation: SFVec2f = "1 1";
     maxTranslation: SFVec2f = "0 0";

@@ -1,10 +1,10 @@
-//! Engines: values computed from other values. They are read, and a field that an engine feeds
-//! keeps the value written in the file.
+//! Engines: values computed from other values. A field that an engine feeds keeps the value written
+//! in the file; without one it gets the engine's, as it is before time runs or anything happens.
 
 macro_rules! engines {
     ([$next:ident $($rest:ident)*] $($seen:tt)*) => { $next! { [$($rest)*] $($seen)* Engine {
 
-BoolOperation: Engine, Kept, [],
+BoolOperation: Engine, Full, [],
     "A logical operation on two truth values; outputs output, inverse." {
     a: MFBool = "FALSE";
     b: MFBool = "FALSE";
@@ -13,7 +13,7 @@ BoolOperation: Engine, Kept, [],
         NOT_A_AND_B, A_AND_NOT_B, NOT_A_AND_NOT_B, A_EQUALS_B, A_NOT_EQUALS_B,
     ];
 }
-Calculator: Engine, Kept, [],
+Calculator: Engine, Full, [],
     "Expressions on numbers and vectors; outputs oa to od, oA to oD." {
     a: MFFloat = "0";
     b: MFFloat = "0";
@@ -33,51 +33,51 @@ Calculator: Engine, Kept, [],
     H: MFVec3f = "0 0 0";
     expression: MFString = "\"\"";
 }
-ComposeVec2f: Engine, Kept, [],
+ComposeVec2f: Engine, Full, [],
     "A vector from numbers; output vector." {
     x: MFFloat = "0";
     y: MFFloat = "0";
 }
-ComposeVec3f: Engine, Kept, [],
+ComposeVec3f: Engine, Full, [],
     "A vector from numbers; output vector." {
     x: MFFloat = "0";
     y: MFFloat = "0";
     z: MFFloat = "0";
 }
-ComposeVec4f: Engine, Kept, [],
+ComposeVec4f: Engine, Full, [],
     "A vector from numbers; output vector." {
     x: MFFloat = "0";
     y: MFFloat = "0";
     z: MFFloat = "0";
     w: MFFloat = "0";
 }
-DecomposeVec2f: Engine, Kept, [],
+DecomposeVec2f: Engine, Full, [],
     "The numbers of a vector; outputs x, y." {
     vector: MFVec2f = "0 0";
 }
-DecomposeVec3f: Engine, Kept, [],
+DecomposeVec3f: Engine, Full, [],
     "The numbers of a vector; outputs x, y, z." {
     vector: MFVec3f = "0 0 0";
 }
-DecomposeVec4f: Engine, Kept, [],
+DecomposeVec4f: Engine, Full, [],
     "The numbers of a vector; outputs x, y, z, w." {
     vector: MFVec4f = "0 0 0 0";
 }
-ComposeRotation: Engine, Kept, [],
+ComposeRotation: Engine, Full, [],
     "A rotation from axis and angle in radians; output rotation." {
     axis: MFVec3f = "0 0 1";
     angle: MFFloat = "0";
 }
-ComposeRotationFromTo: Engine, Kept, [],
+ComposeRotationFromTo: Engine, Full, [],
     "The rotation from one direction to another; output rotation." {
     from: MFVec3f = "0 0 1";
     to: MFVec3f = "0 0 1";
 }
-DecomposeRotation: Engine, Kept, [],
+DecomposeRotation: Engine, Full, [],
     "Axis and angle of a rotation; outputs axis, angle." {
     rotation: MFRotation = "0 0 1 0";
 }
-ComposeMatrix: Engine, Kept, [],
+ComposeMatrix: Engine, Full, [],
     "A matrix from the parts of a transform; output matrix." {
     translation: MFVec3f = "0 0 0";
     rotation: MFRotation = "0 0 1 0";
@@ -90,7 +90,7 @@ DecomposeMatrix: Engine, Kept, [],
     matrix: MFMatrix = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
     center: MFVec3f = "0 0 0";
 }
-TransformVec3f: Engine, Kept, [],
+TransformVec3f: Engine, Full, [],
     "A vector through a matrix; outputs point, direction, normalDirection." {
     vector: MFVec3f = "0 0 0";
     matrix: MFMatrix = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
@@ -100,22 +100,22 @@ ComputeBoundingBox: Engine, Kept, [],
     node: SFNode = "NULL";
     path: SFPath = "NULL";
 }
-Concatenate: Engine, Kept, [],
+Concatenate: Engine, Full, [],
     "Lists in a row; inputs input0 to input9 of the type that `type` names; output output." {
     type: SFName = "\"\"";
 }
-SelectOne: Engine, Kept, [],
+SelectOne: Engine, Full, [],
     "One of ten inputs input0 to input9 of the type that `type` names; output output." {
     type: SFName = "\"\"";
     index: SFInt32 = "0";
 }
-Gate: Engine, Kept, [],
+Gate: Engine, Full, [],
     "Lets its `input`, of the type that `type` names, through or not; output output." {
     type: SFName = "\"\"";
     enable: SFBool = "FALSE";
     trigger: SFTrigger = "";
 }
-Counter: Engine, Kept, [],
+Counter: Engine, Partial, [],
     "Counts triggers; outputs output, syncOut." {
     min: SFShort = "0";
     max: SFShort = "1";
@@ -123,7 +123,7 @@ Counter: Engine, Kept, [],
     trigger: SFTrigger = "";
     reset: SFShort = "0";
 }
-TimeCounter: Engine, Kept, [],
+TimeCounter: Engine, Partial, [],
     "Counts by time; outputs output, syncOut." {
     timeIn: SFTime = "0";
     min: SFShort = "0";
@@ -135,7 +135,7 @@ TimeCounter: Engine, Kept, [],
     reset: SFShort = "0";
     syncIn: SFTrigger = "";
 }
-ElapsedTime: Engine, Kept, [],
+ElapsedTime: Engine, Partial, [],
     "A stopwatch; output timeOut." {
     timeIn: SFTime = "0";
     speed: SFFloat = "1";
@@ -143,7 +143,7 @@ ElapsedTime: Engine, Kept, [],
     pause: SFBool = "FALSE";
     reset: SFTrigger = "";
 }
-OneShot: Engine, Kept, [],
+OneShot: Engine, Partial, [],
     "Runs once for a time; outputs timeOut, isActive, ramp." {
     timeIn: SFTime = "0";
     duration: SFTime = "1";
@@ -151,7 +151,7 @@ OneShot: Engine, Kept, [],
     flags: SFBitMask = "()" [RETRIGGERABLE = 1, HOLD_FINAL = 2];
     disable: SFBool = "FALSE";
 }
-OnOff: Engine, Kept, [],
+OnOff: Engine, Partial, [],
     "A switch; outputs isOn, isOff." {
     on: SFTrigger = "";
     off: SFTrigger = "";
@@ -159,31 +159,31 @@ OnOff: Engine, Kept, [],
 }
 TriggerAny: Engine, Kept, [TRIGGERS],
     "Passes any of ten triggers on; output output." {}
-InterpolateFloat: Interpolate, Kept, [],
+InterpolateFloat: Interpolate, Full, [],
     "Between two values by alpha from 0 to 1; output output." {
     alpha: SFFloat = "0";
     input0: MFFloat = "0";
     input1: MFFloat = "1";
 }
-InterpolateVec2f: Interpolate, Kept, [],
+InterpolateVec2f: Interpolate, Full, [],
     "Between two values by alpha from 0 to 1; output output." {
     alpha: SFFloat = "0";
     input0: MFVec2f = "0 0";
     input1: MFVec2f = "0 0";
 }
-InterpolateVec3f: Interpolate, Kept, [],
+InterpolateVec3f: Interpolate, Full, [],
     "Between two values by alpha from 0 to 1; output output." {
     alpha: SFFloat = "0";
     input0: MFVec3f = "0 0 0";
     input1: MFVec3f = "0 0 0";
 }
-InterpolateVec4f: Interpolate, Kept, [],
+InterpolateVec4f: Interpolate, Full, [],
     "Between two values by alpha from 0 to 1; output output." {
     alpha: SFFloat = "0";
     input0: MFVec4f = "0 0 0 0";
     input1: MFVec4f = "0 0 0 0";
 }
-InterpolateRotation: Interpolate, Kept, [],
+InterpolateRotation: Interpolate, Full, [],
     "Between two values by alpha from 0 to 1; output output." {
     alpha: SFFloat = "0";
     input0: MFRotation = "0 0 1 0";

@@ -4,15 +4,15 @@
 macro_rules! kits {
     ([$next:ident $($rest:ident)*] $($seen:tt)*) => { $next! { [$($rest)*] $($seen)* Kit {
 
-NodeKitListPart: Node, Planned, [],
+NodeKitListPart: Node, Full, [],
     "A part that is a list: a container of one class whose children are of the named classes." {
     containerTypeName: SFName = "\"Group\"";
     childTypeNames: MFName = "\"Node\"";
     containerNode: SFNode = "NULL";
 }
-BaseKit: Node, Planned, [KIT],
+BaseKit: Node, Full, [KIT],
     "A kit without parts of its own." {}
-AppearanceKit: BaseKit, Planned, [KIT],
+AppearanceKit: BaseKit, Full, [KIT],
     "Appearance nodes." {
     lightModel: SFNode = "NULL";
     environment: SFNode = "NULL";
@@ -22,11 +22,11 @@ AppearanceKit: BaseKit, Planned, [KIT],
     texture2: SFNode = "NULL";
     font: SFNode = "NULL";
 }
-SeparatorKit: BaseKit, Planned, [KIT, SEPARATOR, SEPARATOR_KIT],
+SeparatorKit: BaseKit, Full, [KIT, SEPARATOR, SEPARATOR_KIT],
     "A Separator with appearance, transform and children." {
     childList: SFNode = "NULL";
 }
-ShapeKit: SeparatorKit, Planned, [KIT, SEPARATOR, SEPARATOR_KIT],
+ShapeKit: SeparatorKit, Full, [KIT, SEPARATOR, SEPARATOR_KIT],
     "A shape with its properties; without a shape part it is a Cube." {
     materialBinding: SFNode = "NULL";
     normalBinding: SFNode = "NULL";
@@ -45,34 +45,34 @@ ShapeKit: SeparatorKit, Planned, [KIT, SEPARATOR, SEPARATOR_KIT],
     shapeSeparator: SFNode = "NULL";
     shape: SFNode = "NULL";
 }
-WrapperKit: SeparatorKit, Planned, [KIT, SEPARATOR, SEPARATOR_KIT],
+WrapperKit: SeparatorKit, Full, [KIT, SEPARATOR, SEPARATOR_KIT],
     "Any nodes, as a kit." {
     childList: SFNode = "NULL";
     localTransform: SFNode = "NULL";
     contents: SFNode = "NULL";
 }
-SceneKit: BaseKit, Planned, [KIT],
+SceneKit: BaseKit, Full, [KIT],
     "Cameras, lights and children; the container of cameraList is a Switch." {
     topSeparator: SFNode = "NULL";
     cameraList: SFNode = "NULL";
     lightList: SFNode = "NULL";
     childList: SFNode = "NULL";
 }
-CameraKit: BaseKit, Planned, [KIT],
-    "A camera and its transform; without a camera part it is a PerspectiveCamera." {
+CameraKit: BaseKit, Full, [KIT],
+    "A camera and its transform, which ends with the kit." {
     transformGroup: SFNode = "NULL";
     transform: SFNode = "NULL";
     camera: SFNode = "NULL";
 }
-LightKit: BaseKit, Planned, [KIT],
-    "A light, its transform and a shape to show it; without a light part it is a DirectionalLight." {
+LightKit: BaseKit, Full, [KIT],
+    "A light, its transform, which ends with the kit, and a shape to show it." {
     transformGroup: SFNode = "NULL";
     transform: SFNode = "NULL";
     light: SFNode = "NULL";
     iconSeparator: SFNode = "NULL";
     icon: SFNode = "NULL";
 }
-InteractionKit: BaseKit, Planned, [KIT, SEPARATOR],
+InteractionKit: BaseKit, Kept, [KIT, SEPARATOR],
     "The base of draggers." {
     topSeparator: SFNode = "NULL";
     geomSeparator: SFNode = "NULL";

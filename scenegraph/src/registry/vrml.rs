@@ -202,9 +202,8 @@ VRMLText: VRMLGeometry, Full, [],
     maxExtent: SFFloat = "0";
     length: MFFloat = "[]";
 }
-VRMLFontStyle: Node, Partial, [],
-    "Size and looks of a Text. Of families SERIF, SANS and TYPEWRITER are known; `language` has no \
-     effect." {
+VRMLFontStyle: Node, Full, [],
+    "Size, looks and layout of a Text; language is not used." {
     size: SFFloat = "1";
     family: MFString = "\"SERIF\"";
     style: SFString = "\"PLAIN\"";

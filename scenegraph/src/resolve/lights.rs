@@ -6,12 +6,14 @@ use crate::graph::{Node, NodeId};
 use crate::registry::Class;
 use crate::scene::{Camera, Light, LightKind, Projection, ViewportMapping};
 
+use super::hints;
 use super::transforms::{rotation, unit};
 use super::walk::Walk;
 
 impl Walk<'_> {
     /// Adds a light, which reaches all that comes after it in its scope; false if it is none.
-    pub(super) fn light(&mut self, class: Class, id: NodeId) -> bool {
+    /// `hint` is the text of an Info right before it.
+    pub(super) fn light(&mut self, class: Class, id: NodeId, hint: Option<&str>) -> bool {
         let node = self.graph.node(id);
         let direction = || unit(DVec3::from(node.triple("direction"))).unwrap_or(DVec3::NEG_Z);
         let location = || DVec3::from(node.triple("location"));
@@ -37,11 +39,21 @@ impl Walk<'_> {
             return true;
         }
         let placement = self.place(id);
+        let beam = match (&kind, hint) {
+            (
+                LightKind::Spot {
+                    cut_off_angle_rad, ..
+                },
+                Some(text),
+            ) => hints::beam(text, *cut_off_angle_rad),
+            _ => None,
+        };
         let light = Light {
             placement,
             kind,
             color_srgb: node.triple("color"),
             intensity: node.number("intensity"),
+            beam,
             environment: self.state.environment_id,
         };
         self.state.lights = self.builder.light(light, self.state.lights);

@@ -6,6 +6,7 @@
 
 mod builder;
 mod for_all;
+mod hints;
 mod labels;
 mod lights;
 mod profiles;

@@ -78,6 +78,8 @@ pub(super) struct Walk<'g> {
     stack: Vec<Open>,
     frames: Vec<Frame>,
     steps: usize,
+    /// The text of the Info that was visited last, and how deep it stood.
+    hint: Option<(usize, Arc<str>)>,
 }
 
 impl<'g> Walk<'g> {
@@ -108,6 +110,7 @@ impl<'g> Walk<'g> {
             stack: Vec::new(),
             frames: Vec::new(),
             steps: 0,
+            hint: None,
         }
     }
 
@@ -150,6 +153,9 @@ impl<'g> Walk<'g> {
         }
         let graph = self.graph;
         let node = graph.node(id);
+        let depth = self.stack.len();
+        let hint = self.hint.take().filter(|(at, _)| *at == depth);
+        let hint = hint.map(|(_, text)| text);
         let class = match node.kind {
             Kind::Known(class) => class,
             Kind::Unknown(_) if self.options.like_coin => return,
@@ -172,9 +178,19 @@ impl<'g> Walk<'g> {
                 self.group(class, id, node);
                 true
             }
-            Family::Light => self.light(class, id),
+            Family::Light => self.light(class, id, hint.as_deref()),
             Family::Camera => self.camera(class, id),
             Family::Vrml => self.vrml(class, id, node),
+            Family::Kit if class != Class::InteractionKit => {
+                self.kit(class, id, node.children.len());
+                true
+            }
+            Family::Kit | Family::Dragger => {
+                let text = format!("{} is a handle of an editor, and left out", spec.name);
+                self.remarks
+                    .add(Severity::Note, "dragger", &text, "", node.pos);
+                true
+            }
             Family::Information => {
                 self.note(class, node);
                 true
@@ -193,6 +209,9 @@ impl<'g> Walk<'g> {
             Class::Info => "string",
             _ => return,
         };
+        if let (Class::Info, Some(text)) = (class, node.text(field)) {
+            self.hint = Some((self.stack.len(), Arc::clone(text)));
+        }
         if let (Some(frame), Some(text)) = (self.frames.last_mut(), node.text(field)) {
             frame.notes.push(Arc::clone(text));
         }
@@ -208,20 +227,7 @@ impl<'g> Walk<'g> {
             | Class::ExtSelection
             | Class::LocateHighlight
             | Class::WWWAnchor => self.open(id, 0, count, true),
-            Class::TransformSeparator => {
-                let State {
-                    base,
-                    relative,
-                    units_m,
-                    ..
-                } = self.state;
-                let keep = Keep::Matrix {
-                    base,
-                    relative,
-                    units_m,
-                };
-                self.push(id, 0, count, keep, None);
-            }
+            Class::TransformSeparator => self.open_transform(id, count),
             Class::Switch | Class::Blinker => {
                 let (first, end) = self.chosen(class, node);
                 if end - first < count {
@@ -246,6 +252,34 @@ impl<'g> Walk<'g> {
             Class::PathSwitch => not_supported(&mut self.remarks, class.name(), node.pos),
             _ => self.open(id, 0, count, false),
         }
+    }
+
+    /// A node kit, whose parts are its children. A kit that holds a Separator keeps its state to
+    /// itself; of a camera or a light the transform ends with the kit.
+    fn kit(&mut self, class: Class, id: NodeId, count: usize) {
+        match class {
+            Class::BaseKit | Class::AppearanceKit | Class::NodeKitListPart => {
+                self.open(id, 0, count, false);
+            }
+            Class::CameraKit | Class::LightKit => self.open_transform(id, count),
+            _ => self.open(id, 0, count, true),
+        }
+    }
+
+    /// A group that restores the matrix only.
+    fn open_transform(&mut self, id: NodeId, count: usize) {
+        let State {
+            base,
+            relative,
+            units_m,
+            ..
+        } = self.state;
+        let keep = Keep::Matrix {
+            base,
+            relative,
+            units_m,
+        };
+        self.push(id, 0, count, keep, None);
     }
 
     /// Says that something the source hides, or changes over time, is not in the scene.

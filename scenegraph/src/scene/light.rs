@@ -42,8 +42,20 @@ pub struct Light {
     pub color_srgb: [f64; 3],
     /// 0 to 1 as a rule.
     pub intensity: f64,
+    /// How a spot light's cone fades, in place of its drop-off.
+    pub beam: Option<Beam>,
     /// The environment at the light: its attenuation is this light's.
     pub environment: EnvironmentId,
+}
+
+/// A spot light that is of full strength in an inner cone: at the angle θ from its axis the light
+/// has the share `clamp((cos θ − cos outer) / (cos inner − cos outer), 0, 1)^exponent`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beam {
+    /// Half angle of the inner cone, radians; at most the cut-off angle.
+    pub inner_angle_rad: f64,
+    /// At least 0.
+    pub exponent: f64,
 }
 
 /// `Environment.fogType`.

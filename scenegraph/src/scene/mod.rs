@@ -19,7 +19,9 @@ mod mesh;
 mod text;
 
 pub use check::Fault;
-pub use light::{Camera, Environment, Fog, FogType, Light, LightKind, Projection, ViewportMapping};
+pub use light::{
+    Beam, Camera, Environment, Fog, FogType, Light, LightKind, Projection, ViewportMapping,
+};
 pub use material::{
     Faces, Image, LightModel, Material, Texture, TextureModel, TextureSource, Wrap,
 };

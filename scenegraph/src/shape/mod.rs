@@ -207,10 +207,8 @@ impl ShapeMaker {
                     .and_then(|m| outline::styled_primitive(m, job.style))
             }
             _ if is_nurbs(job.class) => nurbs::mesh(job, attributes, remarks),
-            Class::Text2 | Class::Text3 | Class::AsciiText => {
-                text::mesh(job, attributes, &mut self.glyphs, remarks)
-                    .and_then(|m| outline::styled_primitive(m, job.style))
-            }
+            class if is_text(class) => text::mesh(job, attributes, &mut self.glyphs, remarks)
+                .and_then(|m| outline::styled_primitive(m, job.style)),
             Class::LineSet | Class::IndexedLineSet => {
                 let mut segments = lines::segments(job, attributes, remarks);
                 self.assembler

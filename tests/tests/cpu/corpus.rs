@@ -72,13 +72,9 @@ impl Outcome {
         e.analytic.is_empty() && e.text.is_empty() && e.nurbs.is_empty()
     }
 
-    /// Whether a class whose name ends so is read but not drawn in this version.
-    fn leaves_out(&self, class_end: &str) -> bool {
-        let is = |d: &Diagnostic| {
-            let class = d.message.split(' ').next().unwrap_or_default();
-            d.code == "not-supported" && class.ends_with(class_end)
-        };
-        self.diagnostics.iter().any(is)
+    /// Whether draggers are left out.
+    fn has_draggers(&self) -> bool {
+        self.diagnostics.iter().any(|d| d.code == "dragger")
     }
 
     fn differences(&self) -> Vec<Difference> {

@@ -83,6 +83,7 @@ impl Walk<'_> {
             kind,
             color_srgb: node.triple("color").map(|v| v.clamp(0.0, 1.0)),
             intensity: node.number("intensity").clamp(0.0, 1.0),
+            beam: None,
             environment,
         }
     }

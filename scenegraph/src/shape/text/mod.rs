@@ -16,7 +16,9 @@ use glyphs::{Typeface, tolerance};
 use layout::{Justify, Layout, Line, place};
 use profile::Profile;
 
-use crate::font::{self, Found, Style};
+use iv_parser::{Severity, SourcePos};
+
+use crate::font::{self, FontId, Found, Style};
 use crate::graph::{Graph, Node, NodeId};
 use crate::registry::Class;
 use crate::remarks::Remarks;
@@ -34,7 +36,10 @@ const MAX_NAMED_CHARACTERS: usize = 8;
 
 /// Whether a class draws text.
 pub fn is_text(class: Class) -> bool {
-    matches!(class, Class::Text2 | Class::Text3 | Class::AsciiText)
+    matches!(
+        class,
+        Class::Text2 | Class::Text3 | Class::AsciiText | Class::VRMLText
+    )
 }
 
 /// Whether a class draws text of a size in pixels that faces the viewer.
@@ -76,6 +81,18 @@ struct Solid {
     profile: Profile,
 }
 
+impl Solid {
+    /// Letters without depth.
+    fn flat() -> Self {
+        Self {
+            front: true,
+            sides: false,
+            back: false,
+            profile: Profile::flat(),
+        }
+    }
+}
+
 /// The mesh of a text; `None` if it draws nothing.
 pub fn mesh(
     job: &Job<'_>,
@@ -95,27 +112,25 @@ pub fn mesh(
         }
         return None;
     }
-    let found = match job.state.font {
-        None if attributes.vrml2 => vrml::font(None),
-        font => font_of(job.graph, font),
+    let chosen = match job.class {
+        Class::VRMLText => vrml::font_of(job.graph, attributes.node),
+        _ => font_of(job.graph, job.state.font),
     };
-    let face = Typeface::open(found.font, &job.graph.fonts)?;
+    let face = Typeface::open(chosen.font, &job.graph.fonts)?;
     let lines = lines(&text, &face, attributes, remarks);
     if lines.iter().all(|line| line.glyphs.is_empty()) {
         return None;
     }
-    if let (true, Some(id)) = (found.substituted, job.state.font) {
-        let node = job.graph.node(id);
-        let name = node.text("name").map_or("", |name| name);
+    if let Some((name, pos)) = chosen.missing {
         remarks.add(
-            iv_parser::Severity::Note,
+            Severity::Note,
             "font-substituted",
             &format!(
                 "the font `{name}` is not at hand; {} was used",
-                found.font.title(&job.graph.fonts)
+                chosen.font.title(&job.graph.fonts)
             ),
             "--system-fonts uses the fonts of this computer",
-            node.pos,
+            pos,
         );
     }
     let placed = place(&lines, &text.layout);
@@ -130,28 +145,14 @@ pub fn mesh(
 }
 
 fn text_of<'g>(job: &Job<'g>, node: &'g Node, remarks: &mut Remarks) -> Text<'g> {
-    if node.class() == Some(Class::VRMLText) {
-        let style = job.state.font.map(|id| job.graph.node(id));
-        let style = style.filter(|style| style.class() == Some(Class::VRMLFontStyle));
-        return Text {
-            strings: node.value("string").texts().iter().map(|s| &**s).collect(),
-            lengths: node.numbers("length"),
-            layout: vrml::layout(node, style),
-            solid: Solid {
-                front: true,
-                sides: false,
-                back: false,
-                profile: Profile::flat(),
-            },
-        };
+    if job.class == Class::VRMLText {
+        return vrml::text_of(job.graph, node);
     }
     let major = match node.word("justification") {
         "RIGHT" => Justify::End,
         "CENTER" => Justify::Middle,
         _ => Justify::Begin,
     };
-    let is_solid = job.class == Class::Text3;
-    let part = |name: &str| is_solid && node.has_bits("parts", name);
     Text {
         strings: node.value("string").texts().iter().map(|s| &**s).collect(),
         lengths: match job.class {
@@ -159,31 +160,49 @@ fn text_of<'g>(job: &Job<'g>, node: &'g Node, remarks: &mut Remarks) -> Text<'g>
             _ => &[],
         },
         layout: Layout::rows(job.state.font_size, node.number("spacing"), major),
-        solid: Solid {
-            front: !is_solid || part("FRONT"),
-            sides: part("SIDES"),
-            back: part("BACK"),
-            profile: if is_solid {
-                profile::of(
-                    job,
-                    tolerance(job.state.complexity) * job.state.font_size.max(f64::MIN_POSITIVE),
-                    remarks,
-                )
-            } else {
-                Profile::flat()
-            },
+        solid: if job.class == Class::Text3 {
+            let size = job.state.font_size.max(f64::MIN_POSITIVE);
+            let part = |name: &str| node.has_bits("parts", name);
+            Solid {
+                front: part("FRONT"),
+                sides: part("SIDES"),
+                back: part("BACK"),
+                profile: profile::of(job, tolerance(job.state.complexity) * size, remarks),
+            }
+        } else {
+            Solid::flat()
         },
     }
 }
 
-/// The font that a `Font` or `FontStyle` asks for.
-fn font_of(graph: &Graph, node: Option<NodeId>) -> Found {
-    let Some(node) = node.map(|id| graph.node(id)) else {
-        return font::find("", &[]);
-    };
-    if node.class() == Some(Class::VRMLFontStyle) {
-        return vrml::font(Some(node));
+/// The font for a text.
+struct Chosen<'g> {
+    font: FontId,
+    /// The name that was asked for and its place, if another font stands for it.
+    missing: Option<(&'g str, SourcePos)>,
+}
+
+impl<'g> Chosen<'g> {
+    fn of(found: Found, name: &'g str, node: &Node) -> Self {
+        Self {
+            font: found.font,
+            missing: found.substituted.then_some((name, node.pos)),
+        }
     }
+
+    fn built_in(style: Style) -> Self {
+        Self {
+            font: FontId::BuiltIn(style),
+            missing: None,
+        }
+    }
+}
+
+/// The font that a `Font` or `FontStyle` asks for.
+fn font_of(graph: &Graph, node: Option<NodeId>) -> Chosen<'_> {
+    let Some(node) = node.map(|id| graph.node(id)) else {
+        return Chosen::built_in(Style::default());
+    };
     let name = node.text("name").map_or("", |name| name);
     let has_own_name = node.entry("name").is_some() && name != "defaultFont";
     if node.class() == Some(Class::FontStyle) && !has_own_name {
@@ -192,12 +211,9 @@ fn font_of(graph: &Graph, node: Option<NodeId>) -> Found {
             node.has_bits("style", "BOLD"),
             node.has_bits("style", "ITALIC"),
         );
-        return Found {
-            font: font::FontId::BuiltIn(style),
-            substituted: false,
-        };
+        return Chosen::built_in(style);
     }
-    font::find(name, &graph.fonts)
+    Chosen::of(font::find(name, &graph.fonts), name, node)
 }
 
 /// The glyphs of each line. Line breaks in a string begin a line; other control characters draw

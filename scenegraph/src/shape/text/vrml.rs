@@ -1,57 +1,75 @@
-//! `Text` and `FontStyle` of VRML 2 (ISO 14772-1, 6.20 and 6.47), which have words where Inventor
-//! has fields of other types.
+//! `Text` of VRML 97, whose font and layout stand in its own `FontStyle`.
 
-use crate::font::{FontId, Found, Style};
-use crate::graph::Node;
+use std::sync::Arc;
+
+use crate::font::{self, FontId, Style};
+use crate::graph::{Graph, Node};
+use crate::registry::Class;
 
 use super::layout::{Justify, Layout};
+use super::{Chosen, Solid, Text};
 
-/// How a `Text` is set by its `FontStyle`, if it has one.
-pub fn layout(text: &Node, style: Option<&Node>) -> Layout {
-    let max_extent = text.number("maxExtent").max(0.0);
-    let Some(style) = style else {
-        return Layout {
-            max_extent,
-            ..Layout::rows(1.0, 1.0, Justify::Begin)
-        };
-    };
-    let justify = style.value("justify").texts();
-    let word = |index: usize| justify.get(index).map_or("", |word| &**word);
-    Layout {
-        size: style.number("size"),
-        spacing: style.number("spacing"),
-        major: match word(0) {
-            "MIDDLE" => Justify::Middle,
-            "END" => Justify::End,
-            _ => Justify::Begin,
+fn style_of<'g>(graph: &'g Graph, node: &Node) -> Option<&'g Node> {
+    let style = graph.node(node.node_field("fontStyle")?);
+    (style.class() == Some(Class::VRMLFontStyle)).then_some(style)
+}
+
+/// The text of a node.
+pub(super) fn text_of<'g>(graph: &'g Graph, node: &'g Node) -> Text<'g> {
+    let style = style_of(graph, node);
+    let number = |field: &str, default: f64| style.map_or(default, |style| style.number(field));
+    let flag = |field: &str| style.is_none_or(|style| style.flag(field));
+    let justify = style.map_or(&[][..], |style| style.value("justify").texts());
+    let word = |axis: usize| justify.get(axis).map(|word| &**word);
+    Text {
+        strings: node.value("string").texts().iter().map(|s| &**s).collect(),
+        lengths: node.numbers("length"),
+        layout: Layout {
+            size: number("size", 1.0),
+            spacing: number("spacing", 1.0),
+            major: match word(0) {
+                Some("MIDDLE") => Justify::Middle,
+                Some("END") => Justify::End,
+                _ => Justify::Begin,
+            },
+            minor: match word(1) {
+                Some("BEGIN") => Justify::Begin,
+                Some("MIDDLE") => Justify::Middle,
+                Some("END") => Justify::End,
+                _ => Justify::First,
+            },
+            horizontal: flag("horizontal"),
+            left_to_right: flag("leftToRight"),
+            top_to_bottom: flag("topToBottom"),
+            max_extent: node.number("maxExtent"),
         },
-        minor: match word(1) {
-            "BEGIN" => Justify::Begin,
-            "MIDDLE" => Justify::Middle,
-            "END" => Justify::End,
-            _ => Justify::First,
-        },
-        horizontal: style.flag("horizontal"),
-        left_to_right: style.flag("leftToRight"),
-        top_to_bottom: style.flag("topToBottom"),
-        max_extent,
+        solid: Solid::flat(),
     }
 }
 
-/// The font of a `FontStyle`: the first family that is one of the three that VRML knows.
-pub fn font(style: Option<&Node>) -> Found {
-    let families = style.map_or(&[][..], |style| style.value("family").texts());
-    let known = |family: &&str| matches!(*family, "SERIF" | "SANS" | "TYPEWRITER");
-    let family = families.iter().map(|f| &**f).find(known);
-    let look = style.and_then(|style| style.text("style"));
-    let look = look.map_or("", |text| text);
-    let is = |what: &str| look.contains(what);
-    Found {
-        font: FontId::BuiltIn(Style::of_words(
-            family.unwrap_or("SERIF"),
-            is("BOLD"),
-            is("ITALIC"),
-        )),
-        substituted: false,
+/// The first family of its list that is at hand; SERIF, SANS and TYPEWRITER always are.
+pub(super) fn font_of<'g>(graph: &'g Graph, node: &Node) -> Chosen<'g> {
+    let serif = Style::of_words("SERIF", false, false);
+    let Some(style) = style_of(graph, node) else {
+        return Chosen::built_in(serif);
+    };
+    let find = |name: &'g Arc<str>| Chosen::of(font::find(name, &graph.fonts), name, style);
+    let mut families = style.value("family").texts().iter().map(find);
+    let first = families.next().unwrap_or_else(|| Chosen::built_in(serif));
+    let chosen = match first.missing {
+        Some(_) => families.find(|f| f.missing.is_none()).unwrap_or(first),
+        None => first,
+    };
+    let FontId::BuiltIn(family) = chosen.font else {
+        return chosen;
+    };
+    let words = style.text("style").map_or("", |words| words);
+    Chosen {
+        font: FontId::BuiltIn(Style {
+            bold: family.bold || words.contains("BOLD"),
+            italic: family.italic || words.contains("ITALIC"),
+            ..family
+        }),
+        ..chosen
     }
 }

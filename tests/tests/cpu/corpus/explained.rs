@@ -122,7 +122,7 @@ pub fn reason(outcome: &Outcome, what: &str) -> Option<&'static str> {
         .map(|(_, _, reason)| *reason);
     let is_vrml2 = outcome.entry.header.starts_with("#VRML V2.0");
     let viewpoint = (is_vrml2 && what == "cameras").then_some(VIEWPOINTS);
-    let dragger = || outcome.leaves_out("Dragger").then_some(DRAGGERS);
+    let dragger = || outcome.has_draggers().then_some(DRAGGERS);
     listed.or(viewpoint).or_else(dragger)
 }
 

@@ -1,0 +1,168 @@
+//! Connected fields without a value of their own: they get what their master has when the model is
+//! opened. A field with a value keeps it, as in Coin, which takes the master's only once it
+//! changes.
+//!
+//! Masters are fields of nodes, and outputs of engines that do not wait for time or events. Chains
+//! are followed from their ends; in a circle one field keeps its default.
+
+mod calculator;
+mod convert;
+mod engine;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use iv_parser::{Severity, Span};
+use rustc_hash::FxHashMap;
+
+use super::File;
+use crate::graph::{FieldEntry, FieldValue, Node, NodeId};
+use crate::registry::Family;
+
+/// Numbers that all connected fields of a file get: a small file can ask for any number of copies.
+const MAX_NUMBERS: usize = 10_000_000;
+
+/// A field that is connected and has no value.
+pub(super) struct Link {
+    pub slave: NodeId,
+    /// Position in the class's list.
+    pub field: u16,
+    pub ignored: bool,
+    pub master: NodeId,
+    pub output: String,
+    pub span: Span,
+}
+
+/// Fields that stand in no class's list: the inputs of Gate, SelectOne and Concatenate, of the
+/// type that the node names.
+pub(super) type Inputs = FxHashMap<(NodeId, Arc<str>), FieldValue>;
+
+/// How far a link is.
+#[derive(Clone, Copy, PartialEq)]
+enum Progress {
+    New,
+    Open,
+    Done,
+}
+
+/// Gives connected fields their values; all nodes of the file are in the graph.
+pub(super) fn settle(file: &mut File<'_, '_, '_, '_>) {
+    // The last one written wins, as with values.
+    let mut last: FxHashMap<(NodeId, u16), usize> = FxHashMap::default();
+    let mut links = std::mem::take(&mut file.links);
+    for (i, link) in links.iter().enumerate() {
+        last.insert((link.slave, link.field), i);
+    }
+    let mut number = 0..;
+    links.retain(|link| number.next() == last.get(&(link.slave, link.field)).copied());
+    let mut masters = Masters {
+        inputs: std::mem::take(&mut file.inputs),
+        known: FxHashMap::default(),
+        room: MAX_NUMBERS,
+    };
+    let mut of_node: FxHashMap<NodeId, Vec<usize>> = FxHashMap::default();
+    for (i, link) in links.iter().enumerate() {
+        of_node.entry(link.slave).or_default().push(i);
+    }
+    let mut progress = vec![Progress::New; links.len()];
+    let mut stack = Vec::new();
+    for first in 0..links.len() {
+        stack.push(first);
+        while let Some(&at) = stack.last() {
+            let link = &links[at];
+            match progress[at] {
+                Progress::New => {
+                    progress[at] = Progress::Open;
+                    let before =
+                        needed(&file.builder.nodes, link, &links, of_node.get(&link.master));
+                    stack.extend(before.filter(|&i| progress[i] == Progress::New));
+                }
+                Progress::Open => {
+                    progress[at] = Progress::Done;
+                    stack.pop();
+                    give(file, link, &mut masters);
+                }
+                Progress::Done => {
+                    stack.pop();
+                }
+            }
+        }
+    }
+}
+
+/// The links of the master that its output depends on.
+fn needed<'l>(
+    nodes: &'l [Node],
+    link: &'l Link,
+    links: &'l [Link],
+    of_master: Option<&'l Vec<usize>>,
+) -> impl Iterator<Item = usize> + 'l {
+    let class = nodes[link.master.0 as usize].class();
+    let is_engine = class.is_some_and(|c| c.spec().family == Family::Engine);
+    let field = class.and_then(|c| c.spec().field(link.output.as_bytes()));
+    let depends = move |&&i: &&usize| {
+        is_engine || field.is_some_and(|(index, _)| usize::from(links[i].field) == index)
+    };
+    of_master.into_iter().flatten().filter(depends).copied()
+}
+
+/// What masters have, as far as it was asked for.
+struct Masters {
+    inputs: Inputs,
+    /// Outputs of engines.
+    known: FxHashMap<(NodeId, String), Option<FieldValue>>,
+    /// Numbers that may still be given.
+    room: usize,
+}
+
+fn give(file: &mut File<'_, '_, '_, '_>, link: &Link, masters: &mut Masters) {
+    let nodes = &file.builder.nodes;
+    let slave = &nodes[link.slave.0 as usize];
+    let Some((class, spec)) = slave
+        .class()
+        .and_then(|c| Some((c, c.spec().fields.get(usize::from(link.field))?)))
+    else {
+        return;
+    };
+    let found = masters.output(nodes, link);
+    let value = found.and_then(|value| convert::to_type(&value, spec.field_type));
+    let value = value.or_else(|| link.ignored.then(|| super::read_default(spec)));
+    let Some(value) = value else {
+        let message = format!(
+            "`{}.{}` is connected to another field",
+            class.name(),
+            spec.name
+        );
+        let hint = "that gives no value that can be known beforehand; the field keeps its default";
+        file.problem(Severity::Warning, "connection", message, hint, link.span);
+        return;
+    };
+    file.builder.nodes[link.slave.0 as usize]
+        .fields
+        .push(FieldEntry {
+            index: link.field,
+            ignored: link.ignored,
+            value,
+        });
+}
+
+impl Masters {
+    fn output(&mut self, nodes: &[Node], link: &Link) -> Option<FieldValue> {
+        let master = &nodes[link.master.0 as usize];
+        let spec = master.class()?.spec();
+        let value = if spec.family == Family::Engine {
+            let inputs = &self.inputs;
+            let key = (link.master, link.output.clone());
+            let input = |name: &str| inputs.get(&(link.master, name.into())).cloned();
+            let made = || engine::output(master, &link.output, &input);
+            self.known.entry(key).or_insert_with(made).clone()?
+        } else {
+            let (_, field) = spec.field(link.output.as_bytes())?;
+            master.value(field.name).clone()
+        };
+        let size = value.numbers().len() + value.ints().len() + value.texts().len();
+        self.room = self.room.checked_sub(size)?;
+        Some(value)
+    }
+}
