@@ -254,7 +254,8 @@ fn with_edits(
                 .collect(),
         };
         let result = again(&now, &patched.text, limits)?;
-        let left = not_arrived(&result.objects, edited);
+        let moved = !(edits.frames.is_empty() && edits.meshes.is_empty());
+        let left = not_arrived(&result.objects, edited, moved);
         match left.is_empty() {
             true => Ok((patched, now)),
             false => Err(format!("{} would not arrive", left.summary())),
@@ -280,8 +281,11 @@ fn with_edits(
 }
 
 /// What a file has and the converted result has not; names as Inventor can write them.
-fn not_arrived(result: &Objects, wanted: &Objects) -> Edits {
-    let mut left = Edits::between(result, wanted);
+fn not_arrived(result: &Objects, wanted: &Objects, moved: bool) -> Edits {
+    let mut left = match moved {
+        true => Edits::but_for_size(result, wanted),
+        false => Edits::between(result, wanted),
+    };
     left.names.retain(|&(at, to)| {
         let name = wanted.nodes[to].name.as_deref().and_then(legal_name);
         name.as_deref() != result.nodes[at].name.as_deref()
