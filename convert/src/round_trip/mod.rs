@@ -45,8 +45,8 @@ pub struct Source<'a> {
     pub resolve: &'a ResolveOptions,
 }
 
-/// As [`write_file`], with the source in the file. Takes the time of two conversions, and memory for
-/// a `.glb` besides.
+/// As [`write_file`], with the source in the file. Takes the time of two conversions and that of the
+/// compression, and memory for a `.glb` besides.
 ///
 /// # Errors
 ///
