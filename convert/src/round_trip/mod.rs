@@ -18,7 +18,7 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use iv_parser::Encoding;
+use iv_parser::{Encoding, Limits};
 use scenegraph::scene::Scene;
 use scenegraph::{RegistryLayout, ResolveOptions, legal_name};
 
@@ -320,7 +320,7 @@ fn not_arrived(result: &Objects, wanted: &Objects, moved: bool) -> Edits {
 
 /// A text as ASCII; one that is so already stays as it is.
 fn as_ascii(text: &[u8]) -> Vec<u8> {
-    let parsed = iv_parser::parse(text);
+    let parsed = iv_parser::parse_any(text, &RegistryLayout, &Limits::default());
     if parsed.tree.header.encoding == Encoding::Ascii {
         return text.to_vec();
     }
