@@ -70,7 +70,7 @@ pub use options::{Container, Lights, Materials, Options, Quantize, TextureFormat
 pub use pixels::Pixels;
 pub use read::{Model, ReadError, ReadLimits, read_gltf};
 pub use report::{Counts, Report, Warning};
-pub use round_trip::{Recorder, write_file_with_source, write_glb_with_source};
+pub use round_trip::{Recorder, Source, write_file_with_source, write_glb_with_source};
 pub use texture::TextureLoader;
 pub use to_inventor::{
     InventorCounts, InventorFiles, InventorOptions, Note, gltf_to_inventor, is_gltf,

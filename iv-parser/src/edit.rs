@@ -79,16 +79,37 @@ impl<'t, 'a> TextEdits<'t, 'a> {
     pub fn wrap(&mut self, node: NodeId, before: &str, behind: &str) {
         let start = self.start_of(node);
         let end = self.tree.node(node).span.end as usize;
-        let mut insert = |at: usize, text: &str| {
-            let text = text.as_bytes().to_vec();
-            self.edits.push(Edit {
-                range: at..at,
-                text,
-                counts: true,
-            });
-        };
-        insert(start, before);
-        insert(end, behind);
+        self.insert(start, before);
+        self.insert(end, behind);
+    }
+
+    /// As [`Self::wrap`], around one of [`Self::references`].
+    pub fn wrap_reference(&mut self, reference: &Range<usize>, before: &str, behind: &str) {
+        self.insert(reference.start, before);
+        self.insert(reference.end, behind);
+    }
+
+    /// Inserts as often as it is asked for.
+    fn insert(&mut self, at: usize, text: &str) {
+        self.edits.push(Edit {
+            range: at..at,
+            text: text.as_bytes().to_vec(),
+            counts: true,
+        });
+    }
+
+    /// Where a node stands: written out, and by `USE`; in the order of the text.
+    pub fn references(&self, node: NodeId) -> Vec<Range<usize>> {
+        let end = self.tree.node(node).span.end as usize;
+        let mut all: Vec<Range<usize>> = Vec::new();
+        all.push(self.start_of(node)..end);
+        for name in self.uses_of(node) {
+            let before = &self.tree.source[..name.start];
+            let word = before.windows(3).rposition(|word| word == b"USE");
+            all.push(word.unwrap_or(name.start)..name.end);
+        }
+        all.sort_by_key(|range| range.start);
+        all
     }
 
     /// Replaces a node but for its name.
@@ -109,23 +130,27 @@ impl<'t, 'a> TextEdits<'t, 'a> {
             return;
         };
         self.add(at..at + old.len(), new.clone());
-        // A USE means the last definition before it.
-        let later = (0..self.tree.node_count() as u32).map(NodeId);
-        let same = later.filter(|&id| self.tree.node(id).def == Some(old));
-        let starts = same.map(|id| self.tree.node(id).span.start);
-        let own = self.tree.node(node).span.start;
-        let next = starts
-            .filter(|&start| start > own)
-            .min()
-            .unwrap_or(u32::MAX);
-        let uses: Vec<Range<usize>> = self
-            .uses()
-            .filter(|(name, start)| *name == old && (own..next).contains(start))
-            .map(|(name, start)| start as usize..start as usize + name.len())
-            .collect();
-        for range in uses {
+        for range in self.uses_of(node) {
             self.add(range, new.clone());
         }
+    }
+
+    /// The names of all `USE` that mean a node.
+    fn uses_of(&self, node: NodeId) -> Vec<Range<usize>> {
+        let Some(name) = self.tree.node(node).def else {
+            return Vec::new();
+        };
+        // A USE means the last definition before it.
+        let all = (0..self.tree.node_count() as u32).map(NodeId);
+        let same = all.filter(|&id| self.tree.node(id).def == Some(name));
+        let starts = same.map(|id| self.tree.node(id).span.start);
+        let own = self.tree.node(node).span.start;
+        let next = starts.filter(|&start| start > own).min();
+        let reach = own..next.unwrap_or(u32::MAX);
+        self.uses()
+            .filter(|(used, start)| *used == name && reach.contains(start))
+            .map(|(name, start)| start as usize..start as usize + name.len())
+            .collect()
     }
 
     /// All `USE`: the name and where it stands.

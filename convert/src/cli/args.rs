@@ -119,8 +119,8 @@ pub struct Args {
     pub no_extras: bool,
 
     /// Puts the source into the output too, so that `ivconvert x.glb -o x.iv` gives it back byte for
-    /// byte, with what was edited in between. The output grows by about the compressed length of the
-    /// source and a third; the conversion takes twice as long
+    /// byte, with what was edited in between. The output grows by about a quarter of the source; the
+    /// conversion takes four times as long
     #[arg(long, conflicts_with = "no_extras")]
     pub round_trip: bool,
 

@@ -9,7 +9,7 @@ use convert::command::atomic;
 use convert::command::fonts;
 use convert::command::messages::{file_of, image_left_out};
 use convert::command::model::{self, Opened};
-use convert::{Container, Loss, Options, Recorder, Report};
+use convert::{Container, Loss, Options, Recorder, Report, Source};
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use scenegraph::{Graph, Loader, ResolveOptions, Resolved};
 use serde_json::{Value, json};
@@ -196,7 +196,12 @@ fn to_gltf(outcome: &mut Outcome, path: &Path, settings: &Settings) -> Result<()
     atomic::make_folder_of(path)?;
     let report = match text {
         Some(text) => {
-            convert::write_file_with_source(&scene, &settings.options, &recorder, &text, path)
+            let source = Source {
+                text: &text,
+                recorder: &recorder,
+                resolve: &settings.resolve,
+            };
+            convert::write_file_with_source(&scene, &settings.options, &source, path)
         }
         None => convert::write_file(&scene, &settings.options, &model::Images(&files), path),
     };

@@ -29,6 +29,8 @@ pub(crate) struct Objects {
     pub(crate) roots: Vec<usize>,
     pub(crate) nodes: Vec<NodeObject>,
     pub(crate) meshes: Vec<Vec<PrimitiveObject>>,
+    /// A checksum of each mesh's positions and indices.
+    pub(crate) mesh_sums: Vec<u32>,
     pub(crate) materials: Vec<MaterialObject>,
     /// `None` for those of a kind that is not known.
     pub(crate) lights: Vec<Option<(Light, [f64; 3])>>,
@@ -135,6 +137,7 @@ impl Objects {
                     material: primitive.material.map(|index| index.value()),
                 });
             }
+            objects.mesh_sums.push(sum_of(&primitives));
             objects.meshes.push(primitives);
         }
         for number in 0..root.materials.len() {
@@ -183,6 +186,15 @@ impl Objects {
         objects.roots = shown.roots.iter().map(|root| root.value()).collect();
         Ok(objects)
     }
+}
+
+fn sum_of(primitives: &[PrimitiveObject]) -> u32 {
+    let mut crc = flate2::Crc::new();
+    for mesh in primitives.iter().filter_map(|p| p.mesh.as_ref()) {
+        crc.update(bytemuck::cast_slice(&mesh.positions));
+        crc.update(bytemuck::cast_slice(&mesh.indices));
+    }
+    crc.sum()
 }
 
 fn nowhere() -> Placement {

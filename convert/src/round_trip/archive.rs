@@ -35,10 +35,10 @@ pub(crate) enum Content {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Archive {
     pub(crate) files: Vec<(String, Content)>,
-    /// Checksum and length of the `.glb` that was made of it, without this source in it.
+    /// Checksum and length of the `.glb` that was made of it, with null for this source in it.
     pub(crate) glb: (u32, u64),
-    /// The options it was made with, as the writer of the options words them.
-    pub(crate) options: String,
+    /// The choices it was made with: see `made`.
+    pub(crate) made: Value,
 }
 
 pub(crate) fn crc(bytes: &[u8]) -> u32 {
@@ -76,8 +76,8 @@ impl Archive {
             "files": files,
             "glb": { "crc32": crc, "bytes": length },
         });
-        if !self.options.is_empty() {
-            source["options"] = self.options.as_str().into();
+        if !self.made.is_null() {
+            source["made"] = self.made.clone();
         }
         Ok(source.to_string())
     }
@@ -111,7 +111,7 @@ impl Archive {
         Ok(Self {
             files,
             glb: (crc, number(&glb["bytes"])),
-            options: source["options"].as_str().unwrap_or_default().to_owned(),
+            made: source["made"].clone(),
         })
     }
 
@@ -226,7 +226,7 @@ mod tests {
                 ),
             ],
             glb: (7, 1 << 40),
-            options: "some".to_owned(),
+            made: json!({ "chord": 0.5 }),
         }
     }
 

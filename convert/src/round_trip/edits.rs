@@ -1,10 +1,10 @@
 //! What differs between a file as it was written and as it is now, object by object.
 //!
-//! Nodes are paired from the roots down, by name where names are unique among siblings, else by
-//! order; meshes, materials, lights and cameras are paired by the nodes that show them. So another
+//! Nodes are paired from the roots down, by name where names are unique among siblings, else by what
+//! they show and where; meshes, materials, lights and cameras are paired by the nodes that show them. So another
 //! order, other buffers and other spellings of the same numbers are no edits.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use glam::{DAffine3, DVec3};
 use scenegraph::scene::{Camera, Light, LightKind, Material, Mesh, Projection, Topology};
@@ -23,6 +23,9 @@ const NORMAL_TOLERANCE: f32 = 2e-3;
 /// Vertex colours: half a step of 8-bit ones.
 const COLOR_TOLERANCE: f32 = 2.5e-3;
 
+/// Siblings of one kind among which one in the same place is looked for.
+const MAX_SIBLINGS_TRIED: usize = 64;
+
 /// All that differs; pairs are of the object as it was and as it is.
 #[derive(Debug, Default)]
 pub(crate) struct Edits {
@@ -39,7 +42,18 @@ pub(crate) struct Edits {
 
 impl Edits {
     pub(crate) fn between(was: &Objects, is: &Objects) -> Self {
+        Self::found(was, is, false)
+    }
+
+    /// As [`Self::between`], but for what the writer makes of the size of the scene, which differs
+    /// where parts were moved: the strength of lights that fade, and depths of cameras.
+    pub(crate) fn but_for_size(was: &Objects, is: &Objects) -> Self {
+        Self::found(was, is, true)
+    }
+
+    fn found(was: &Objects, is: &Objects, other_size: bool) -> Self {
         let mut pairing = Pairing {
+            other_size,
             was,
             is,
             edits: Self::default(),
@@ -95,6 +109,7 @@ struct Compared {
 }
 
 struct Pairing<'o> {
+    other_size: bool,
     was: &'o Objects,
     is: &'o Objects,
     edits: Edits,
@@ -144,7 +159,7 @@ impl<'o> Pairing<'o> {
             let same = pair(&mut self.compared.lights, a, b, "lights")?;
             let found = (self.was.lights.get(a), self.is.lights.get(b));
             if let (false, (Some(Some(x)), Some(Some(y)))) = (same, found)
-                && !same_light(x, y)
+                && !same_light(x, y, self.other_size)
             {
                 self.edits.lights.insert(a, b);
             }
@@ -153,7 +168,7 @@ impl<'o> Pairing<'o> {
             let same = pair(&mut self.compared.cameras, a, b, "cameras")?;
             let found = (self.was.cameras.get(a), self.is.cameras.get(b));
             if let (false, (Some(Some(x)), Some(Some(y)))) = (same, found)
-                && !same_camera(x, y)
+                && !same_camera(x, y, self.other_size)
             {
                 self.edits.cameras.insert(a, b);
             }
@@ -234,7 +249,7 @@ fn both(
     }
 }
 
-/// Siblings by name where both sides have it once, the others by order.
+/// Siblings by name where both sides have it once, then by what they are and where, then by order.
 fn siblings(
     was: &Objects,
     a: &[usize],
@@ -265,12 +280,49 @@ fn siblings(
             pairs.push((*at, *to));
         }
     }
-    let taken: std::collections::BTreeSet<usize> = pairs.iter().map(|p| p.0).collect();
-    let taken_now: std::collections::BTreeSet<usize> = pairs.iter().map(|p| p.1).collect();
-    let rest = a.iter().filter(|i| !taken.contains(i));
-    let rest_now = b.iter().filter(|i| !taken_now.contains(i));
-    pairs.extend(rest.copied().zip(rest_now.copied()));
+    let taken: BTreeSet<usize> = pairs.iter().map(|p| p.0).collect();
+    let taken_now: BTreeSet<usize> = pairs.iter().map(|p| p.1).collect();
+    let mut alike: BTreeMap<Kind, VecDeque<usize>> = BTreeMap::new();
+    for &to in b.iter().filter(|i| !taken_now.contains(i)) {
+        alike.entry(kind(is, to)).or_default().push_back(to);
+    }
+    let mut rest = Vec::new();
+    for &at in a.iter().filter(|i| !taken.contains(i)) {
+        let frame = |o: &Objects, i: usize| o.nodes.get(i).map(|n| n.parent_from_local);
+        let same = |&to: &usize| match (frame(was, at), frame(is, to)) {
+            (Some(a), Some(b)) => same_frame(&a, &b),
+            _ => false,
+        };
+        let found = alike.get_mut(&kind(was, at)).and_then(|queue| {
+            let near = queue.iter().take(MAX_SIBLINGS_TRIED).position(same);
+            queue.remove(near.unwrap_or(0))
+        });
+        match found {
+            Some(to) => pairs.push((at, to)),
+            None => rest.push(at),
+        }
+    }
+    let mut left: Vec<usize> = alike.into_values().flatten().collect();
+    left.sort_by_key(|to| b.iter().position(|i| i == to));
+    pairs.extend(rest.into_iter().zip(left));
     Ok(pairs)
+}
+
+/// What tells siblings without names apart: what they show and how much they hold.
+type Kind = (Option<u32>, bool, bool, usize, bool);
+
+fn kind(objects: &Objects, at: usize) -> Kind {
+    let Some(node) = objects.nodes.get(at) else {
+        return (None, false, false, 0, false);
+    };
+    let sum = |mesh: usize| objects.mesh_sums.get(mesh).copied().unwrap_or_default();
+    (
+        node.mesh.map(sum),
+        node.light.is_some(),
+        node.camera.is_some(),
+        node.children.len(),
+        node.name.is_some(),
+    )
 }
 
 fn near(a: f64, b: f64, tolerance: f64) -> bool {
@@ -313,7 +365,11 @@ fn same_material(a: &Material, b: &Material) -> bool {
         && (a.light_model, a.faces) == (b.light_model, b.faces)
 }
 
-fn same_light((a, fall): &(Light, [f64; 3]), (b, fall_back): &(Light, [f64; 3])) -> bool {
+fn same_light(
+    (a, fall): &(Light, [f64; 3]),
+    (b, fall_back): &(Light, [f64; 3]),
+    other_size: bool,
+) -> bool {
     let cone = |light: &Light| match light.kind {
         LightKind::Directional { .. } => (0, [0.0; 2]),
         LightKind::Point { .. } => (1, [0.0; 2]),
@@ -327,17 +383,19 @@ fn same_light((a, fall): &(Light, [f64; 3]), (b, fall_back): &(Light, [f64; 3]))
     kind == kind_back
         && all_near(&angles, &angles_back)
         && all_near(&a.color_srgb, &b.color_srgb)
-        && near(a.intensity, b.intensity, VALUE_TOLERANCE)
+        && (other_size && kind > 0 || near(a.intensity, b.intensity, VALUE_TOLERANCE))
         && fall == fall_back
 }
 
-fn same_camera(a: &Camera, b: &Camera) -> bool {
+fn same_camera(a: &Camera, b: &Camera, other_size: bool) -> bool {
     let view = |camera: &Camera| match camera.projection {
         Projection::Perspective { height_angle_rad } => [0.0, height_angle_rad],
         Projection::Orthographic { height } => [1.0, height],
     };
-    let numbers = |c: &Camera| [c.aspect_ratio, c.near_distance, c.far_distance];
-    all_near(&view(a), &view(b)) && all_near(&numbers(a), &numbers(b))
+    let numbers = |c: &Camera| [c.near_distance, c.far_distance];
+    all_near(&view(a), &view(b))
+        && near(a.aspect_ratio, b.aspect_ratio, VALUE_TOLERANCE)
+        && (other_size || all_near(&numbers(a), &numbers(b)))
 }
 
 fn same_geometry(a: &PrimitiveObject, b: &PrimitiveObject) -> bool {

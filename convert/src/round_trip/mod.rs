@@ -8,6 +8,7 @@
 
 mod archive;
 mod edits;
+mod made;
 mod patch;
 mod paths;
 mod recorder;
@@ -17,7 +18,7 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use iv_parser::Encoding;
+use iv_parser::{Encoding, Limits};
 use scenegraph::scene::Scene;
 use scenegraph::{RegistryLayout, ResolveOptions, legal_name};
 
@@ -33,8 +34,19 @@ use archive::crc;
 use edits::Edits;
 use patch::Materials;
 
-/// As [`write_file`], with the source in the file: `text`, the bytes of the model, and what it read
-/// by way of `recorder`. Takes the time of two conversions, and memory for a `.glb` besides.
+/// What a scene was made of.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    /// The bytes of the model.
+    pub text: &'a [u8],
+    /// What read all that the model refers to.
+    pub recorder: &'a Recorder<'a>,
+    /// How it was resolved.
+    pub resolve: &'a ResolveOptions,
+}
+
+/// As [`write_file`], with the source in the file. Takes the time of two conversions and that of the
+/// compression, and memory for a `.glb` besides.
 ///
 /// # Errors
 ///
@@ -42,16 +54,11 @@ use patch::Materials;
 pub fn write_file_with_source(
     scene: &Scene,
     options: &Options,
-    recorder: &Recorder<'_>,
-    text: &[u8],
+    source: &Source<'_>,
     path: &Path,
 ) -> Result<Report, Error> {
-    let source = packed(scene, options, recorder, text)?;
-    let options = Options {
-        source: Some(source.into()),
-        ..options.clone()
-    };
-    write_file(scene, &options, recorder, path)
+    let options = with_source(scene, options, source)?;
+    write_file(scene, &options, source.recorder, path)
 }
 
 /// As [`write_glb`], with the source in the file.
@@ -62,32 +69,21 @@ pub fn write_file_with_source(
 pub fn write_glb_with_source(
     scene: &Scene,
     options: &Options,
-    recorder: &Recorder<'_>,
-    text: &[u8],
+    source: &Source<'_>,
     out: &mut dyn Write,
 ) -> Result<Report, Error> {
-    let source = packed(scene, options, recorder, text)?;
-    let options = Options {
-        source: Some(source.into()),
-        ..options.clone()
-    };
-    write_glb(scene, &options, recorder, out)
+    let options = with_source(scene, options, source)?;
+    write_glb(scene, &options, source.recorder, out)
 }
 
-/// The source as JSON text.
-fn packed(
-    scene: &Scene,
-    options: &Options,
-    recorder: &Recorder<'_>,
-    text: &[u8],
-) -> Result<String, Error> {
-    let glb = plain_glb(scene, options, recorder)?;
+/// The options with the source in them.
+fn with_source(scene: &Scene, options: &Options, source: &Source<'_>) -> Result<Options, Error> {
+    let mut glb = Vec::new();
+    write_glb(scene, &without_source(options), source.recorder, &mut glb)?;
     let images = crate::read::images_of(&glb).unwrap_or_default();
-    let mut files = vec![(String::new(), Content::Here(text.into()))];
-    for (path, bytes) in recorder.files() {
-        let same = images
-            .iter()
-            .position(|image| image.as_deref() == Some(&*bytes));
+    let mut files = vec![(String::new(), Content::Here(source.text.into()))];
+    for (path, bytes) in source.recorder.files() {
+        let same = images.iter().position(|i| i.as_deref() == Some(&*bytes));
         let content = match same {
             Some(index) => Content::Image {
                 index,
@@ -100,25 +96,49 @@ fn packed(
     let archive = Archive {
         files,
         glb: (crc(&glb), glb.len() as u64),
-        options: String::new(),
+        made: made::to_value(options, source.resolve),
     };
-    Ok(archive.pack()?)
+    Ok(Options {
+        source: Some(archive.pack()?.into()),
+        ..options.clone()
+    })
 }
 
-/// The `.glb` of a scene without a source.
-fn plain_glb(
-    scene: &Scene,
-    options: &Options,
-    textures: &dyn crate::TextureLoader,
-) -> Result<Vec<u8>, Error> {
-    let options = Options {
+/// The options for a `.glb` with null in the place of its source.
+fn without_source(options: &Options) -> Options {
+    Options {
         container: Container::Glb,
-        source: None,
+        source: Some("null".into()),
         ..options.clone()
+    }
+}
+
+/// Whether a `.glb` is to the bit as it was written.
+fn is_untouched(bytes: &[u8], archive: &Archive) -> bool {
+    let empty = |bytes: &[u8]| -> Option<Vec<u8>> {
+        let length = u32::from_le_bytes(*bytes.get(12..)?.first_chunk()?) as usize;
+        let text = bytes.get(20..)?.get(..length)?.trim_ascii_end();
+        let rest = bytes.get(20 + length..)?;
+        let key = b"\"source\":{";
+        let start = memchr::memmem::find(text, key)? + key.len() - 1;
+        let mut values = serde_json::Deserializer::from_slice(text.get(start..)?).into_iter();
+        let _: serde::de::IgnoredAny = values.next()?.ok()?;
+        let end = start + values.byte_offset();
+        let mut json = [text.get(..start)?, b"null", text.get(end..)?].concat();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let length = u32::try_from(20 + json.len() + rest.len()).ok()?;
+        let json_length = (json.len() as u32).to_le_bytes();
+        let head = [
+            &bytes[..8],
+            &length.to_le_bytes(),
+            &json_length,
+            &bytes[16..20],
+        ]
+        .concat();
+        Some([&head, &json[..], rest].concat())
     };
-    let mut glb = Vec::new();
-    write_glb(scene, &options, textures, &mut glb)?;
-    Ok(glb)
+    bytes.starts_with(b"glTF")
+        && empty(bytes).is_some_and(|glb| (crc(&glb), glb.len() as u64) == archive.glb)
 }
 
 /// A source that a file carries, with the images of the file.
@@ -184,6 +204,11 @@ pub(crate) fn back(input: &Input<'_>) -> Result<Back, ReadError> {
         Ok(archive) => archive,
         Err(why) => return Ok(Back::No(Some(unusable(&why)))),
     };
+    if is_untouched(input.bytes, &archive) {
+        let images = crate::read::images_of(input.bytes)?;
+        let carried = Carried::new(archive, &images);
+        return Ok(Back::Source(unedited(input, &carried)));
+    }
     let edited = Objects::read(
         input.bytes,
         input.beside,
@@ -192,7 +217,7 @@ pub(crate) fn back(input: &Input<'_>) -> Result<Back, ReadError> {
     )?;
     let carried = Carried::new(archive, &edited.images);
     let limits = &input.options.limits;
-    let original = match again(&carried.files, carried.archive.root(), limits) {
+    let original = match again(&carried, &carried.files, carried.archive.root(), limits) {
         Ok(original) => original,
         Err(why) => return Ok(Back::No(Some(unusable(&why)))),
     };
@@ -203,7 +228,7 @@ pub(crate) fn back(input: &Input<'_>) -> Result<Back, ReadError> {
     let changed = edits.summary();
     // Images of the file stand in for those of the source, so that they do not tell.
     if original.glb != carried.archive.glb && carried.images_edited.is_empty() {
-        let why = "this version converts it otherwise, so that what was edited cannot be known";
+        let why = "it is converted otherwise now, so that what was edited cannot be known";
         return Ok(Back::No(Some(unusable(why))));
     }
     let patched = match edits.structure {
@@ -234,7 +259,7 @@ fn with_edits(
     let limits = &input.options.limits;
     let text = as_ascii(carried.archive.root());
     let parsed = iv_parser::parse(&text);
-    let was = again(&carried.files, &text, limits)?;
+    let was = again(carried, &carried.files, &text, limits)?;
     let edits = Edits::between(&was.objects, edited);
     // An edited image whose name is taken gets another one.
     let mut names = BTreeMap::new();
@@ -253,8 +278,9 @@ fn with_edits(
                 })
                 .collect(),
         };
-        let result = again(&now, &patched.text, limits)?;
-        let left = not_arrived(&result.objects, edited);
+        let result = again(carried, &now, &patched.text, limits)?;
+        let moved = !(edits.frames.is_empty() && edits.meshes.is_empty());
+        let left = not_arrived(&result.objects, edited, moved);
         match left.is_empty() {
             true => Ok((patched, now)),
             false => Err(format!("{} would not arrive", left.summary())),
@@ -280,8 +306,11 @@ fn with_edits(
 }
 
 /// What a file has and the converted result has not; names as Inventor can write them.
-fn not_arrived(result: &Objects, wanted: &Objects) -> Edits {
-    let mut left = Edits::between(result, wanted);
+fn not_arrived(result: &Objects, wanted: &Objects, moved: bool) -> Edits {
+    let mut left = match moved {
+        true => Edits::but_for_size(result, wanted),
+        false => Edits::between(result, wanted),
+    };
     left.names.retain(|&(at, to)| {
         let name = wanted.nodes[to].name.as_deref().and_then(legal_name);
         name.as_deref() != result.nodes[at].name.as_deref()
@@ -291,7 +320,7 @@ fn not_arrived(result: &Objects, wanted: &Objects) -> Edits {
 
 /// A text as ASCII; one that is so already stays as it is.
 fn as_ascii(text: &[u8]) -> Vec<u8> {
-    let parsed = iv_parser::parse(text);
+    let parsed = iv_parser::parse_any(text, &RegistryLayout, &Limits::default());
     if parsed.tree.header.encoding == Encoding::Ascii {
         return text.to_vec();
     }
@@ -333,10 +362,16 @@ pub(crate) struct Again {
 }
 
 /// Converts a source; says why that cannot be.
-fn again(files: &Unpacked, text: &[u8], limits: &ReadLimits) -> Result<Again, String> {
+fn again(
+    carried: &Carried,
+    files: &Unpacked,
+    text: &[u8],
+    limits: &ReadLimits,
+) -> Result<Again, String> {
+    let (options, resolve) = made::from_value(&carried.archive.made);
     let graph = scenegraph::load(text, "source.iv", Path::new(""), files);
-    let scene = scenegraph::resolve(&graph, &ResolveOptions::default()).scene;
-    let options = Options::default();
+    let scene = scenegraph::resolve(&graph, &resolve).scene;
+    let options = without_source(&options);
     let prepared = Prepared::new(&scene, &options).map_err(|e| e.to_string())?;
     let plan = Plan::new(&prepared, &options, files).map_err(|e| e.to_string())?;
     let mut glb = Vec::new();

@@ -4,11 +4,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
+use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use iv_parser::{LineCounter, NodeId as TreeId, SourcePos, TextEdits, Tree};
 use scenegraph::scene::{
-    Faces, Light, LightKind, LightModel, Material, Mesh, NodeId, Projection, Scene, TextureSource,
+    Faces, Instance, Light, LightKind, LightModel, Material, Mesh, NodeId, Projection, Scene,
+    TextureSource,
 };
 use scenegraph::{legal_name, write_shape};
 
@@ -144,7 +146,7 @@ struct Patcher<'p, 't, 'a> {
     /// Of each node's parent.
     frames_of: Vec<DAffine3>,
     /// What stands around nodes; once, however often they are used.
-    wrapped: BTreeSet<(u32, String)>,
+    wrapped: BTreeSet<(usize, String)>,
 }
 
 impl Patcher<'_, '_, '_> {
@@ -175,12 +177,38 @@ impl Patcher<'_, '_, '_> {
         }
     }
 
-    /// A Separator around a node, with something ahead of it.
-    fn wrap(&mut self, node: TreeId, ahead: &str) {
-        if self.wrapped.insert((node.0, ahead.to_owned())) {
-            let before = format!("Separator {{ {ahead} ");
-            self.edits.wrap(node, &before, " }");
+    /// A Separator around a place of the text, with something ahead of what stands there; once,
+    /// however often it is asked for.
+    fn wrap(&mut self, place: &Range<usize>, def: &str, ahead: &str) {
+        if self.wrapped.insert((place.start, ahead.to_owned())) {
+            let before = format!("{def}Separator {{ {ahead} ");
+            self.edits.wrap_reference(place, &before, " }");
         }
+    }
+
+    /// Where the text has the `nth` of `count` occurrences of a node in the scene: each is written
+    /// once, or all come from one place, which is then meant for all.
+    fn place(&self, node: TreeId, (nth, count): (usize, usize)) -> Range<usize> {
+        let mut places = self.edits.references(node);
+        let at = if places.len() == count { nth } else { 0 };
+        places.swap_remove(at)
+    }
+
+    /// Which occurrence of its node a group is, and of how many.
+    fn group_occurrence(&self, group: NodeId) -> (usize, usize) {
+        let nodes = &self.scene.nodes;
+        let pos = nodes[group.index()].pos;
+        let same =
+            |nodes: &[scenegraph::scene::Node]| nodes.iter().filter(|n| n.pos == pos).count();
+        (same(&nodes[..group.index()]), same(nodes))
+    }
+
+    /// As [`Self::group_occurrence`], of a shape.
+    fn instance_occurrence(&self, i: usize) -> (usize, usize) {
+        let all = &self.scene.instances;
+        let pos = all[i].placement.pos;
+        let same = |list: &[Instance]| list.iter().filter(|i| i.placement.pos == pos).count();
+        (same(&all[..i]), same(all))
     }
 
     fn item_pos(&self, item: Item) -> SourcePos {
@@ -218,13 +246,26 @@ impl Patcher<'_, '_, '_> {
             Some(_) => groups.iter().find(named),
             None => groups.last(),
         };
-        let pos = match (group, origin.item) {
-            (Some(group), _) => self.scene.nodes[group.index()].pos,
-            (None, Some(item)) => self.item_pos(item),
+        let (pos, occurrence) = match (group, origin.item) {
+            (Some(&group), _) => (
+                self.scene.nodes[group.index()].pos,
+                self.group_occurrence(group),
+            ),
+            (None, Some(Item::Instance(i))) => (
+                self.item_pos(Item::Instance(i)),
+                self.instance_occurrence(i),
+            ),
+            (None, Some(item)) => (self.item_pos(item), (0, 1)),
             (None, None) => return Err("a name stands nowhere in the source".to_owned()),
         };
         let node = self.node_at(pos)?;
-        self.edits.rename(node, &new);
+        match occurrence {
+            (_, 1) => self.edits.rename(node, &new),
+            _ => {
+                let place = self.place(node, occurrence);
+                self.wrap(&place, &format!("DEF {new} "), "");
+            }
+        }
         Ok(())
     }
 
@@ -241,7 +282,18 @@ impl Patcher<'_, '_, '_> {
             _ => {}
         }
         let groups = self.groups(&origin);
-        if let Some(&inner) = groups.first() {
+        if let (Some(&outer), Some(&inner)) = (groups.last(), groups.first()) {
+            let occurrence = self.group_occurrence(outer);
+            // A change inside would be one of the members' frames, not of the group's.
+            if occurrence.1 > 1 || origin.item.is_none() {
+                // outer * change * rest = new, where outer * rest = old.
+                let outside = self.scene.nodes[outer.index()].parent_from_local;
+                let change = outside.inverse() * new * old.inverse() * outside;
+                let node = self.node_at(self.scene.nodes[outer.index()].pos)?;
+                let place = self.place(node, occurrence);
+                self.wrap(&place, "", &transform_text(&tidy(change)?));
+                return Ok(());
+            }
             // outer * inner * change * rest = new, where outer * inner * rest = old.
             let product = |frame: DAffine3, group: &NodeId| {
                 self.scene.nodes[group.index()].parent_from_local * frame
@@ -261,7 +313,8 @@ impl Patcher<'_, '_, '_> {
         let back = DAffine3::from_translation(-origin_of_mesh);
         let change = tidy(local.inverse() * new * back)?;
         let node = self.node_at(instance.placement.pos)?;
-        self.wrap(node, &transform_text(&change));
+        let place = self.place(node, self.instance_occurrence(i));
+        self.wrap(&place, "", &transform_text(&change));
         Ok(())
     }
 
@@ -427,9 +480,12 @@ impl Patcher<'_, '_, '_> {
             let _ = write!(ahead, "LightModel {{ model {model} }} ");
         }
         ahead += &material_text(&look);
-        for instance in self.scene.instances.iter().filter(|i| i.material == id) {
-            let node = self.node_at(instance.placement.pos)?;
-            self.wrap(node, &ahead);
+        for (i, instance) in self.scene.instances.iter().enumerate() {
+            if instance.material == id {
+                let node = self.node_at(instance.placement.pos)?;
+                let place = self.place(node, self.instance_occurrence(i));
+                self.wrap(&place, "", &ahead);
+            }
         }
         Ok(())
     }
@@ -611,7 +667,9 @@ impl Patcher<'_, '_, '_> {
         };
         let text = write_shape(&shape, 0);
         self.edits.replace(node, text.trim_ascii());
-        self.wrap(node, &format!("ShapeHints {{ {hints} }}"));
+        for place in self.edits.references(node) {
+            self.wrap(&place, "", &format!("ShapeHints {{ {hints} }}"));
+        }
         Ok(())
     }
 

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use convert::{
-    InventorFiles, InventorOptions, Options, Recorder, gltf_to_inventor, write_glb_with_source,
+    InventorFiles, InventorOptions, Options, Recorder, Source, gltf_to_inventor,
+    write_glb_with_source,
 };
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 
@@ -15,9 +16,15 @@ use super::models::{Model, corpus, samples};
 pub fn glb_with_source(text: &[u8], folder: &Path, loader: &FileLoader) -> Result<Vec<u8>, String> {
     let recorder = Recorder::new(loader, folder);
     let graph = load(text, "model.iv", folder, &recorder);
-    let scene = resolve(&graph, &ResolveOptions::default()).scene;
+    let resolve_options = ResolveOptions::default();
+    let scene = resolve(&graph, &resolve_options).scene;
     let mut glb = Vec::new();
-    write_glb_with_source(&scene, &Options::default(), &recorder, text, &mut glb)
+    let source = Source {
+        text,
+        recorder: &recorder,
+        resolve: &resolve_options,
+    };
+    write_glb_with_source(&scene, &Options::default(), &source, &mut glb)
         .map_err(|error| error.to_string())?;
     Ok(glb)
 }
