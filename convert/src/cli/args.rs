@@ -120,8 +120,9 @@ pub struct Args {
 
     /// Puts the source into the output too, so that `ivconvert x.glb -o x.iv` gives it back byte for
     /// byte, with what was edited in between. The output grows by about the compressed length of the
-    /// source and a third; the conversion takes twice as long
-    #[arg(long, conflicts_with = "no_extras")]
+    /// source and a third; the conversion takes twice as long. Not with options of how the glTF is
+    /// made, whose effects would be taken for edits
+    #[arg(long, conflicts_with_all = ["no_extras", "Choices"])]
     pub round_trip: bool,
 
     #[command(flatten)]
