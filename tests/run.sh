@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# All checks and tests. Needs cargo, node with npm for the Khronos validator, and Mesa's Vulkan
-# drivers, whose software adapter (lavapipe) draws the pictures.
+# All checks and tests. Needs cargo, a C++ compiler, node with npm for the Khronos validator and
+# glTF-Transform, Chromium for the page of --html, and Mesa's Vulkan drivers, whose software adapter
+# (lavapipe) draws the pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,6 +10,25 @@ if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
     apt-get update -qq && apt-get install -y -qq nodejs npm >/dev/null
   else
     echo "node and npm are needed for the Khronos glTF validator: install Debian's packages nodejs and npm" >&2
+    exit 1
+  fi
+fi
+
+if ! command -v chromium >/dev/null && ! command -v chromium-browser >/dev/null &&
+  ! command -v google-chrome >/dev/null; then
+  if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+    apt-get update -qq && apt-get install -y -qq chromium >/dev/null
+  else
+    echo "Chromium is needed to show pages: install Debian's package chromium" >&2
+    exit 1
+  fi
+fi
+
+if ! command -v c++ >/dev/null && ! command -v g++ >/dev/null && ! command -v clang++ >/dev/null; then
+  if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+    apt-get update -qq && apt-get install -y -qq g++ >/dev/null
+  else
+    echo "a C++ compiler is needed for meshoptimizer: install Debian's package g++" >&2
     exit 1
   fi
 fi

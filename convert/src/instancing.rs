@@ -3,7 +3,7 @@
 //! Nodes below one parent that hold the same mesh, have no children, and say the same (name, class,
 //! surroundings) become one, if their frames do not shear. Frames of copies are f32: they are
 //! relative to the middle of all, which stays f64 in the node. Where positions have a tolerance,
-//! copies that f32 would move by more than a small share of it stay nodes.
+//! copies that f32 would move by more than a quarter of it stay nodes.
 
 use geometry::transform::{Decomposition, Trs, decompose};
 use glam::{DAffine3, DQuat, DVec3};
@@ -14,7 +14,7 @@ use crate::json::Json;
 /// Fewer copies take less room as nodes.
 pub(crate) const MIN_COPIES: usize = 4;
 /// Share of a tolerance that the rounding of frames may take.
-pub(crate) const TOLERANCE_SHARE: f64 = 1.0 / 64.0;
+pub(crate) const TOLERANCE_SHARE: f64 = 1.0 / 4.0;
 
 /// The name that both writer and file use.
 pub(crate) const EXTENSION: &str = "EXT_mesh_gpu_instancing";

@@ -14,6 +14,8 @@ mod cpu {
     mod measures;
     mod models;
     mod nurbs;
+    mod outputs;
+    mod page;
     mod precision;
     mod random_models;
     mod reference;

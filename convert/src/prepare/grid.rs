@@ -110,8 +110,22 @@ pub(crate) fn snap(mesh: &mut Mesh, frame: &Frame, tolerance: f64) -> Positions 
     if steps > MAX_F32_STEPS {
         return Positions::F32;
     }
+    let (form, saved_bytes) = if steps <= f64::from(u8::MAX) {
+        (Positions::U8 { step: step as f32 }, 8)
+    } else if steps <= f64::from(u16::MAX) {
+        (Positions::U16 { step: step as f32 }, 4)
+    } else {
+        (Positions::F32, 0)
+    };
+    let pays = saved_bytes * mesh.positions.len() as u64 > SCALE_BYTES * frame.instances;
+    let form = if pays { form } else { Positions::F32 };
+    // Floats may as well stay where they are, which leaves the nodes as they are.
+    let stays = form == Positions::F32
+        && mesh.origin == DVec3::ZERO
+        && shift == DVec3::ZERO
+        && (reach.max_element() + 1.0) <= MAX_F32_STEPS;
+    let first = if stays { DVec3::ZERO } else { first };
     let base = base.to_array();
-    let first = first.to_array();
     for position in &mut mesh.positions {
         for axis in 0..3 {
             let at = (base[axis] + f64::from(position[axis])) / step;
@@ -119,20 +133,8 @@ pub(crate) fn snap(mesh: &mut Mesh, frame: &Frame, tolerance: f64) -> Positions 
             position[axis] = (steps * step) as f32;
         }
     }
-    mesh.origin = DVec3::from(first) * step - shift;
-    let step = step as f32;
-    let (form, saved_bytes) = if steps <= f64::from(u8::MAX) {
-        (Positions::U8 { step }, 8)
-    } else if steps <= f64::from(u16::MAX) {
-        (Positions::U16 { step }, 4)
-    } else {
-        (Positions::F32, 0)
-    };
-    if saved_bytes * mesh.positions.len() as u64 > SCALE_BYTES * frame.instances {
-        form
-    } else {
-        Positions::F32
-    }
+    mesh.origin = first * step - shift;
+    form
 }
 
 fn extent(mesh: &Mesh) -> (DVec3, DVec3) {

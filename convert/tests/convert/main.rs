@@ -15,6 +15,7 @@ mod lights_cameras;
 mod losses;
 mod materials;
 mod meshes;
+mod options_doc;
 mod read;
 mod reading;
 mod scenes;

@@ -10,7 +10,7 @@ use crate::read::{Converted, convert_with};
 use crate::scenes::{Build, Images, file_texture, material, png, scale, shift, triangle, turn};
 
 /// A wavy sheet of `size` by `size` vertices with all attributes.
-fn sheet(size: u32, extent: f64, origin: DVec3) -> Mesh {
+pub fn sheet(size: u32, extent: f64, origin: DVec3) -> Mesh {
     let share = |i: u32| f64::from(i) / f64::from(size - 1);
     let grid = || (0..size).flat_map(|i| (0..size).map(move |j| (share(i), share(j))));
     let height = |u: f64, v: f64| 0.1 * (9.0 * u).sin() * (7.0 * v).cos();
@@ -234,7 +234,7 @@ fn texture_coordinates_beyond_the_image_stay_floats() {
 }
 
 /// With nothing but positions to tell vertices apart.
-fn plain(mesh: Mesh) -> Mesh {
+pub fn plain(mesh: Mesh) -> Mesh {
     Mesh {
         normals: vec![[0.0, 0.0, 1.0]; mesh.positions.len()],
         texcoords: Vec::new(),

@@ -29,7 +29,7 @@ fn converted(model: &Model, container: Container, out: &Path, number: usize) -> 
 }
 
 /// One line of the validator for each file, in their order.
-fn validate(files: &[PathBuf], folder: &Path) -> Vec<Value> {
+pub fn validate(files: &[PathBuf], folder: &Path) -> Vec<Value> {
     let list = folder.join("names.txt");
     let names: String = files
         .iter()
@@ -55,7 +55,7 @@ fn validate(files: &[PathBuf], folder: &Path) -> Vec<Value> {
     lines
 }
 
-fn is_clean(line: &Value) -> bool {
+pub fn is_clean(line: &Value) -> bool {
     line["errors"] == 0 && line["warnings"] == 0
 }
 
@@ -65,7 +65,8 @@ fn outputs_have_no_errors_and_no_warnings() {
     let (samples, corpus) = (samples(), corpus());
     let glb = samples.iter().chain(&corpus).map(|m| (m, Container::Glb));
     let gltf = samples.iter().map(|m| (m, Container::GltfBin));
-    let jobs: Vec<_> = glb.chain(gltf).collect();
+    let embedded = samples.iter().map(|m| (m, Container::GltfEmbedded));
+    let jobs: Vec<_> = glb.chain(gltf).chain(embedded).collect();
     let files: Vec<PathBuf> = jobs
         .iter()
         .enumerate()
