@@ -100,12 +100,17 @@ impl Outcome {
                 ours.transparencies,
                 self.entry.transparencies,
             ),
-            ("textured triangles", ours.textured, coin.textured),
             ("lights", self.lights, self.entry.lights),
             ("cameras", self.cameras, self.entry.cameras),
         ];
         for (what, ours, coin) in counts {
             number(what, ours as f64, coin as f64, 0.0);
+        }
+        // Of textured triangles too, degenerate ones may be missing.
+        let degenerate = coin.triangles.saturating_sub(ours.triangles);
+        if !(ours.textured..=ours.textured + degenerate).contains(&coin.textured) {
+            let (ours, coin) = (ours.textured as f64, coin.textured as f64);
+            number("textured triangles", ours, coin, 0.0);
         }
         // Degenerate triangles, which are left out here, count for Coin's sum.
         if ours.triangles == coin.triangles {

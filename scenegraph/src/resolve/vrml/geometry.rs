@@ -21,7 +21,7 @@ fn drawn_as(class: Class) -> Option<Class> {
         }
         Class::VRMLIndexedLineSet => Class::IndexedLineSet,
         Class::VRMLPointSet => Class::PointSet,
-        Class::VRMLText => Class::AsciiText,
+        Class::VRMLText => class,
         _ => return None,
     })
 }

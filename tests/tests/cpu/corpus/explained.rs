@@ -14,6 +14,11 @@ const PAST_THE_END: &str =
     "vertices beyond the list of colours have the last one; Coin reads on in memory";
 const TEXTURE_TRANSFORM: &str = "the texture transform is applied; Coin hands it out apart";
 
+const EMPTY_FACE: &str =
+    "a face without corners is left out alone; Coin leaves out all that follows it";
+const SIX_DIGITS: &str =
+    "a packed colour and its spelling with six digits are two colours; for Coin they are one";
+
 const EIGHT_BITS: &str = "colours keep the digits of the text; Coin's VRMLColor has 8 bits";
 
 /// Path, quantities, reason.
@@ -22,6 +27,63 @@ const EXPLAINED: &[(&str, &[&str], &str)] = &[
     ("aumuell/data/models/bird.iv", &["normals"], UNIT_NORMALS),
     ("ivexamples/data/bird.iv", &["volume"], FILE_NORMALS),
     ("ivexamples/data/bird.iv", &["normals"], UNIT_NORMALS),
+    (
+        "aumuell/apps/examples/data/bird.iv",
+        &["volume"],
+        FILE_NORMALS,
+    ),
+    (
+        "aumuell/apps/examples/data/bird.iv",
+        &["normals"],
+        UNIT_NORMALS,
+    ),
+    ("pivy/examples/Mentor/bird.iv", &["volume"], FILE_NORMALS),
+    ("pivy/examples/Mentor/bird.iv", &["normals"], UNIT_NORMALS),
+    (
+        "aumuell/data/models/CyberHeads/josie.iv",
+        &["normals"],
+        QUAD_NORMALS,
+    ),
+    (
+        "aumuell/data/models/CyberHeads/paul.iv",
+        &["normals"],
+        QUAD_NORMALS,
+    ),
+    (
+        "aumuell/data/models/CyberHeads/rikk.iv",
+        &["normals"],
+        QUAD_NORMALS,
+    ),
+    (
+        "aumuell/data/models/buildings/Barcelona.iv",
+        &["colours", "area", "volume", "bounds"],
+        EMPTY_FACE,
+    ),
+    (
+        "aumuell/data/models/buildings/Barcelona.iv",
+        &["normals"],
+        UNLIT,
+    ),
+    (
+        "aumuell/data/models/machines/compressor.iv",
+        &["volume", "normals"],
+        FILE_NORMALS,
+    ),
+    (
+        "aumuell/data/models/robots/robotcop.iv",
+        &["colours"],
+        SIX_DIGITS,
+    ),
+    (
+        "aumuell/data/models/vehicles/767.iv",
+        &["volume", "normals"],
+        FILE_NORMALS,
+    ),
+    (
+        "aumuell/data/models/vehicles/spacestation.iv",
+        &["volume", "normals"],
+        FILE_NORMALS,
+    ),
     (
         "aumuell/data/models/simple/indexedTriangleMesh.iv",
         &["colours"],

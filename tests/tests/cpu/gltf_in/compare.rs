@@ -337,7 +337,14 @@ fn light_difference(
             drop_off_rate,
             cut_off_angle_rad,
             ..
-        } => [drop_off_rate, cut_off_angle_rad],
+        } => {
+            // A beam has a drop-off of its own, which stands in the extras alone.
+            let has_drop_off = values == Values::Inventors || a.beam.is_none();
+            [
+                if has_drop_off { drop_off_rate } else { 0.0 },
+                cut_off_angle_rad,
+            ]
+        }
         _ => [0.0; 2],
     };
     let attenuation = |scene: &Scene, light: &Light| match light.kind {
@@ -366,6 +373,7 @@ fn light_difference(
             !comparable || attenuation(want, a) == attenuation(got, b),
         ),
         ("cone", close(&cone(a), &cone(b), tolerance)),
+        ("beam", values != Values::Inventors || a.beam == b.beam),
     ])
 }
 

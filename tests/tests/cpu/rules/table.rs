@@ -420,7 +420,7 @@ pub const RULES: &[Rule] = &[
         name: "an ignored field, and a connection to nothing",
         text: "Separator { Cube { width 4 ~ depth = USE gone.width height 6 } }",
         counts: Some([12, 0, 0]),
-        codes: &["connection", "unknown-name"],
+        codes: &["unknown-name"],
         ..RULE
     },
     Rule {
