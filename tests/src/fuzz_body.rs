@@ -110,7 +110,6 @@ pub fn resolve_within(bytes: &[u8], limits: ResolveLimits) -> Resolved {
         like_coin: false,
         chord: None,
         limits,
-        ..ResolveOptions::default()
     };
     let mut resolved = scenegraph::resolve(&graph, &options(Geometry::Build));
     assert_eq!(resolved.scene.check(), []);

@@ -55,7 +55,7 @@ impl ArchiveLoader {
         };
         let last = name.rsplit('/').next().unwrap_or_default();
         let beside =
-            |name: &str| clean_name(&format!("{inside}/{name}").trim_start_matches('/')).ok();
+            |name: &str| clean_name(format!("{inside}/{name}").trim_start_matches('/')).ok();
         let candidates = [beside(name), clean_name(name).ok(), beside(last)];
         let found = candidates
             .into_iter()

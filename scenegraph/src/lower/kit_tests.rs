@@ -7,8 +7,11 @@ use glam::DVec3;
 use crate::scene::Scene;
 use crate::{FileLoader, ResolveOptions, load, resolve};
 
-/// Of each instance its place, its colour and its number of triangles; and all codes.
-fn drawn(body: &str) -> (Vec<(DVec3, [f64; 3], usize)>, Vec<&'static str>, Scene) {
+/// The place, the colour and the number of triangles of an instance.
+type Drawn = (DVec3, [f64; 3], usize);
+
+/// What is drawn, and all codes.
+fn drawn(body: &str) -> (Vec<Drawn>, Vec<&'static str>, Scene) {
     let text = format!("#Inventor V2.1 ascii\nSeparator {{ {body} }}");
     let graph = load(text.as_bytes(), "t.iv", Path::new(""), &FileLoader::new([]));
     let resolved = resolve(&graph, &ResolveOptions::default());
