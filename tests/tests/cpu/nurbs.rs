@@ -61,7 +61,7 @@ fn tube() -> String {
             .map(|point| {
                 let n: Vec<f64> = point
                     .split_whitespace()
-                    .map(|t| t.parse().unwrap())
+                    .map(|t| t.parse().expect("a number"))
                     .collect();
                 format!("{} {} {} {}", n[0], n[1], dz * n[3], n[3])
             })
