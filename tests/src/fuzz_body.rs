@@ -23,16 +23,6 @@ const LIMITS: ResolveLimits = ResolveLimits {
     geometry_bytes: 64 << 20,
 };
 
-/// All bodies.
-pub fn all(bytes: &[u8]) {
-    parse(bytes);
-    binary(bytes);
-    let resolved = resolve(bytes);
-    convert(&resolved);
-    // Any answer is right.
-    let _ = read_gltf(bytes);
-}
-
 /// Parsing ends, and what was read without a problem reads back equal from its print.
 ///
 /// # Panics

@@ -4,6 +4,7 @@
 pub mod corpus;
 pub mod floats;
 pub mod fuzz_body;
+pub mod fuzz_targets;
 pub mod glb;
 pub mod hostile;
 pub mod large;

@@ -14,7 +14,7 @@ use crate::resolve::Ordering;
 use crate::scene::{Mesh, Topology};
 
 use super::attributes::Attributes;
-use super::faces::{Corners, Take};
+use super::corners::{Corners, Take};
 use super::normals::NormalMaker;
 use super::texcoords::TexCoordMaker;
 use super::values::{Normals, Values};

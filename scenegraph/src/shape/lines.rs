@@ -5,7 +5,8 @@ use crate::remarks::Remarks;
 
 use super::Job;
 use super::attributes::Attributes;
-use super::faces::{Collector, Corners, Parts, Spot, Take, runs};
+use super::corners::{Collector, Corners, Parts, Spot, Take};
+use super::faces::runs;
 
 fn bad_index(attributes: &Attributes<'_>, remarks: &mut Remarks) {
     remarks.warn(

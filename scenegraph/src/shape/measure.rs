@@ -9,7 +9,7 @@ use crate::resolve::Style;
 use crate::scene::{Mesh, Topology};
 
 use super::attributes::Attributes;
-use super::{Job, faces, is_nurbs, nurbs, outline, point, primitives, text};
+use super::{Job, corners, faces, is_nurbs, nurbs, outline, point, primitives, text};
 
 /// How much a shape draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,7 +138,7 @@ fn styled_faces(job: &Job<'_>, attributes: &Attributes<'_>) -> Option<Measure> {
     let faces = faces::faces(
         job,
         attributes,
-        faces::Spare::default(),
+        corners::Spare::default(),
         &mut Remarks::default(),
     )?;
     let (corners, topology) = outline::styled(faces, job.style);

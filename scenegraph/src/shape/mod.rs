@@ -7,6 +7,7 @@
 mod assemble;
 mod attributes;
 mod color;
+mod corners;
 mod faces;
 mod lines;
 mod made;
@@ -83,7 +84,7 @@ pub struct ShapeMaker {
     cache: FxHashMap<MeshKey, Option<Made>>,
     assembler: Assembler,
     /// The arrays of an earlier shape, for the next one to fill.
-    spare: faces::Spare,
+    spare: corners::Spare,
     glyphs: text::GlyphCache,
     bytes: usize,
 }

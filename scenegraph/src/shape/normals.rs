@@ -3,7 +3,7 @@
 use geometry::normal::{Corners as Joined, CreaseNormals, face_normal};
 use glam::DVec3;
 
-use super::faces::Corners;
+use super::corners::Corners;
 
 /// Makes normals; holds scratch memory only.
 #[derive(Default)]

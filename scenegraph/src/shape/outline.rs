@@ -5,7 +5,7 @@ use rustc_hash::FxHashSet;
 use crate::resolve::Style;
 use crate::scene::{Mesh, Topology};
 
-use super::faces::{Corners, Take};
+use super::corners::{Corners, Take};
 
 /// The corners as the style draws them.
 pub fn styled(faces: Corners, style: Style) -> (Corners, Topology) {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::scene::Mesh;
 
 use super::attributes::Attributes;
-use super::faces::Take;
+use super::corners::Take;
 use super::texcoords::TexCoordMaker;
 
 /// The values that corners take, ready to be looked up.

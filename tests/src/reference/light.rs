@@ -29,6 +29,8 @@ struct Cone {
     axis: DVec3,
     cos_cut_off: f64,
     exponent: f64,
+    /// Half angle of the inner cone and the power of the seam around it.
+    beam: Option<(f64, f64)>,
 }
 
 impl WorldLight {
@@ -51,6 +53,7 @@ impl WorldLight {
                     axis: axis(direction),
                     cos_cut_off: cut_off_angle_rad.cos(),
                     exponent: 128.0 * drop_off_rate,
+                    beam: light.beam.map(|beam| (beam.inner_angle_rad, beam.exponent)),
                 };
                 (Source::Point(world.transform_point3(location)), Some(cone))
             }
@@ -93,9 +96,15 @@ impl Cone {
     fn share(&self, away: DVec3) -> f64 {
         let cosine = away.dot(self.axis);
         if cosine < self.cos_cut_off {
-            0.0
-        } else {
-            cosine.max(0.0).powf(self.exponent)
+            return 0.0;
         }
+        let Some((inner_angle_rad, exponent)) = self.beam else {
+            return cosine.max(0.0).powf(self.exponent);
+        };
+        let inner = inner_angle_rad.cos();
+        if cosine >= inner {
+            return 1.0;
+        }
+        ((cosine - self.cos_cut_off) / (inner - self.cos_cut_off)).powf(exponent)
     }
 }

@@ -19,6 +19,17 @@ pub fn many_lights() -> ShadowScene {
     text.lamp("SpotLight", DVec3::new(-1.0, 3.0, 1.0), spot);
     let narrow = "direction -0.5 -1 0.1 cutOffAngle 0.25 dropOffRate 0 color 0.6 0.6 1";
     text.lamp("SpotLight", DVec3::new(1.2, 3.2, -0.8), narrow);
+    for (hints, place) in [
+        (
+            "beamWidthAngle 0.3 LightSource.concentrationExponent 1.8",
+            -0.6,
+        ),
+        ("beamWidthAngle 0.5", 0.8),
+    ] {
+        text.raw(&format!("Info {{ string \"LightSource.{hints}\" }}"));
+        let beam = "direction 0.1 -1 0.2 cutOffAngle 0.5 dropOffRate 0.3 color 0.7 0.3 0.7";
+        text.lamp("SpotLight", DVec3::new(place, 3.1, 0.4), beam);
+    }
     text.raw("DirectionalLight { direction -0.4 -1 -0.7 color 0.9 0.9 0.7 intensity 0.4 }");
     text.raw("DirectionalLight { direction 0.9 -0.5 0.1 color 0.4 0.5 0.9 intensity 0.3 }");
     text.floor(0.0, 4.0);
@@ -131,6 +142,9 @@ fn image(text: &mut Text, components: usize) {
 pub fn panes() -> ShadowScene {
     let mut text = Text::new();
     text.point_light([1.0, 4.0, 2.0]);
+    text.raw("Info { string \"LightSource.beamWidthAngle 0.2\" }");
+    let beam = "direction -0.1 -0.4 -1 cutOffAngle 0.4 intensity 0.5";
+    text.lamp("SpotLight", DVec3::new(0.2, 2.0, 4.0), beam);
     text.floor(0.0, 4.0);
     text.colored(
         [0.8, 0.3, 0.3],

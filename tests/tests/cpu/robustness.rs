@@ -1,15 +1,19 @@
 //! Any input ends: without a panic, in bounded time and memory, with the guarantees kept.
 
 use std::fs;
+use std::io::{Cursor, Write};
 use std::panic::catch_unwind;
 use std::path::Path;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
+use flate2::write::GzEncoder;
 use samples::{ALL, path_of};
 use scenegraph::{FileLoader, RegistryLayout, ResolveLimits, ResolveOptions, load, resolve};
 use tests::mutate::{Rng, mutate};
-use tests::{fuzz_body, hostile};
+use tests::{fuzz_body, fuzz_targets, hostile};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
 
 /// Longest time for one input of [`mutated_inputs`]; measured ones take milliseconds.
 const SLOW: Duration = Duration::from_secs(2);
@@ -53,12 +57,58 @@ fn binary_forms(texts: &[Vec<u8>]) -> Vec<Vec<u8>> {
 
 #[test]
 fn samples_and_rules() {
-    for sample in ALL {
-        fuzz_body::all(&fs::read(path_of(sample)).expect("a sample"));
+    let samples = ALL.iter().map(|s| fs::read(path_of(s)).expect("a sample"));
+    let rule = |r: &super::rules::check::Rule| format!("#Inventor V2.1 ascii\n{}", r.text);
+    let rules = super::rules::table::RULES.iter().map(rule);
+    for input in samples.chain(rules.map(String::into_bytes)) {
+        for (_, target) in fuzz_targets::ALL {
+            target(&input);
+        }
     }
-    for rule in super::rules::table::RULES {
-        fuzz_body::all(format!("#Inventor V2.1 ascii\n{}", rule.text).as_bytes());
+}
+
+/// Texts in what models are packed in: each in one of the ways.
+fn packed_forms(texts: &[Vec<u8>]) -> Vec<Vec<u8>> {
+    let pack = |(i, text): (usize, &Vec<u8>)| match i % 3 {
+        0 => {
+            let mut packer = GzEncoder::new(Vec::new(), flate2::Compression::default());
+            packer.write_all(text).expect("memory");
+            packer.finish().expect("memory")
+        }
+        odd => {
+            let mut packer = ZipWriter::new(Cursor::new(Vec::new()));
+            let plain = SimpleFileOptions::default();
+            let options = match odd {
+                1 => plain,
+                _ => plain.with_aes_encryption(zip::AesMode::Aes128, "ivory"),
+            };
+            packer.start_file("model.iv", options).expect("memory");
+            packer.write_all(text).expect("memory");
+            packer.finish().expect("memory").into_inner()
+        }
+    };
+    texts.iter().enumerate().map(pack).collect()
+}
+
+/// Inputs that were a fault once, in `tests/fuzz/regressions`: the beginning of each name is its
+/// target.
+#[test]
+fn what_was_a_fault_is_none() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/regressions");
+    let mut count = 0;
+    for file in fs::read_dir(folder).expect("a folder") {
+        let path = file.expect("a file").path();
+        let name = path.file_name().and_then(|n| n.to_str()).expect("a name");
+        let input = fs::read(&path).expect("a file");
+        let mut targets = fuzz_targets::ALL.iter();
+        let of_name = targets.find(|(target, _)| name.starts_with(&format!("{target}-")));
+        let (_, target) = of_name.expect("a name that begins with its target's");
+        let began = Instant::now();
+        target(&input);
+        assert!(began.elapsed() < SLOW, "{name} took {:?}", began.elapsed());
+        count += 1;
     }
+    assert!(count > 0, "there are none");
 }
 
 #[test]
@@ -71,6 +121,7 @@ fn mutated_inputs() {
             .map(|r| rule(r).into_bytes()),
     );
     texts.extend(binary_forms(&texts));
+    texts.extend(packed_forms(&texts));
     let number = |name, usual| {
         let given = std::env::var(name).ok();
         given.and_then(|n| n.parse().ok()).unwrap_or(usual)
@@ -84,11 +135,15 @@ fn mutated_inputs() {
         let input = mutate(&mut rng, base, &texts);
         let began = Instant::now();
         let watch = Watch::over(&input);
-        let result = catch_unwind(|| fuzz_body::all(&input));
+        let (name, target) = fuzz_targets::ALL[rng.below(fuzz_targets::ALL.len())];
+        let result = catch_unwind(|| target(&input));
         drop(watch);
         let took = began.elapsed();
         if result.is_err() || took > SLOW {
-            panic!("input {count} took {took:?}; kept as {}", keep(&input));
+            panic!(
+                "{name}: input {count} took {took:?}; kept as {}",
+                keep(&input)
+            );
         }
         count += 1;
     }

@@ -24,7 +24,24 @@ pub enum LightShape {
         axis: DVec3,
         /// Cosine of the half angle; -1 and below: all ways.
         cos_cut_off: f64,
-        /// Exponent of the cosine: 128 times `dropOffRate`.
+        /// How it weakens towards the edge.
+        fade: SpotFade,
+    },
+}
+
+/// How a spot light weakens towards the edge of its cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpotFade {
+    /// By the cosine of the angle to the axis, to the power of 128 times `dropOffRate`.
+    Cosine {
+        /// The power.
+        exponent: f64,
+    },
+    /// From full strength in an inner cone to none at the edge (Lexolights' photorealism).
+    Beam {
+        /// Cosine of the inner cone's half angle.
+        cos_inner: f64,
+        /// The power of what is left.
         exponent: f64,
     },
 }
@@ -117,7 +134,15 @@ fn world_light(scene: &Scene, light: &Light) -> WorldLight {
             p_in_world: world_from_local.transform_point3(location),
             axis: axis_in_world(direction),
             cos_cut_off: cut_off_angle_rad.clamp(0.0, std::f64::consts::PI).cos(),
-            exponent: 128.0 * drop_off_rate.max(0.0),
+            fade: match light.beam {
+                Some(beam) => SpotFade::Beam {
+                    cos_inner: beam.inner_angle_rad.cos(),
+                    exponent: beam.exponent.max(0.0),
+                },
+                None => SpotFade::Cosine {
+                    exponent: 128.0 * drop_off_rate.max(0.0),
+                },
+            },
         },
     };
     let weakens = !matches!(shape, LightShape::Directional { .. });

@@ -13,7 +13,7 @@ use geometry::bounds::Aabb;
 use glam::DAffine3;
 use scenegraph::scene::{Faces, MeshId, Scene, TextureId, Topology};
 
-pub use lights::{LightShape, WorldLight, world_lights};
+pub use lights::{LightShape, SpotFade, WorldLight, world_lights};
 pub use look::{FogUse, Look, Primitive, TextureUse, TextureUseModel};
 pub use surface::{Surface, SurfaceFog};
 

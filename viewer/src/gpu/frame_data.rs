@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat4, DVec3, DVec4};
 
 use super::binding::{self, Layouts};
 use super::device::Gpu;
-use crate::content::{Content, LightShape, Surface, WorldLight};
+use crate::content::{Content, LightShape, SpotFade, Surface, WorldLight};
 use crate::frame::{Plan, rel_plane};
 use crate::shader;
 use crate::view::{Lens, Region, View};
@@ -288,27 +288,38 @@ fn surface(surface: &Surface, far: f64) -> shader::Surface {
 }
 
 fn light(light: &WorldLight, eye: DVec3) -> shader::Light {
-    let (position, axis, exponent) = match light.shape {
-        LightShape::Directional { towards } => (xyzw(towards, 0.0), [0.0, 0.0, 0.0, -2.0], 0.0),
-        LightShape::Point { p_in_world } => {
-            (xyzw(p_in_world - eye, 1.0), [0.0, 0.0, 0.0, -2.0], 0.0)
-        }
+    const ALL_WAYS: [f32; 4] = [0.0, 0.0, 0.0, -2.0];
+    let (position, axis, exponent, steepness) = match light.shape {
+        LightShape::Directional { towards } => (xyzw(towards, 0.0), ALL_WAYS, 0.0, 0.0),
+        LightShape::Point { p_in_world } => (xyzw(p_in_world - eye, 1.0), ALL_WAYS, 0.0, 0.0),
         LightShape::Spot {
             p_in_world,
             axis,
             cos_cut_off,
-            exponent,
-        } => (
-            xyzw(p_in_world - eye, 1.0),
-            xyzw(axis, cos_cut_off),
-            exponent,
-        ),
+            fade,
+        } => {
+            let (exponent, steepness) = match fade {
+                SpotFade::Cosine { exponent } => (exponent, 0.0),
+                // Without a seam the light is cut off: a step that f32 can hold.
+                SpotFade::Beam {
+                    cos_inner,
+                    exponent,
+                } => (exponent, 1.0 / (cos_inner - cos_cut_off).max(1e-30)),
+            };
+            let position = xyzw(p_in_world - eye, 1.0);
+            (position, xyzw(axis, cos_cut_off), exponent, steepness)
+        }
     };
     let [quadratic, linear, constant] = light.attenuation.unwrap_or([0.0, 0.0, 1.0]);
     shader::Light {
         position,
         axis,
         color: rgbw(light.color_srgb, exponent),
-        attenuation: [quadratic as f32, linear as f32, constant as f32, 0.0],
+        attenuation: [
+            quadratic as f32,
+            linear as f32,
+            constant as f32,
+            steepness as f32,
+        ],
     }
 }

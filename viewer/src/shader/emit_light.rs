@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::key::{Contribution, LightForm, LightKey, ShaderKey, ShadowLookup};
+use super::key::{Contribution, LightForm, LightKey, ShaderKey, ShadowLookup, SpotForm};
 
 /// The functions that [`lights_added`] calls.
 pub fn light_functions(text: &mut String, key: &ShaderKey) {
@@ -68,7 +68,8 @@ fn light_of(rel: vec3f, n: vec3f, v: vec3f, base: vec3f, s: Surface, ids: vec2u)
             strength = select(1.0, 1.0 / weakening, weakening > 0.0);
             let cosine = -dot(l, light.axis.xyz);
             if light.axis.w > -1.5 {
-                strength = strength * select(power(max(cosine, 0.0), light.color.w), 0.0, cosine < light.axis.w);
+                let left = select(cosine, min((cosine - light.axis.w) * light.attenuation.w, 1.0), light.attenuation.w > 0.0);
+                strength = strength * select(power(max(left, 0.0), light.color.w), 0.0, cosine < light.axis.w);
             }
         }
         sum += strength * light.color.rgb * reflected(n, v, l, base, s);
@@ -122,7 +123,7 @@ fn light_of(rel: vec3f, n: vec3f, v: vec3f, base: vec3f, s: Surface) -> vec3f {
 ",
         );
     }
-    if let LightForm::Spot { has_exponent } = light.form {
+    if let LightForm::Spot(form) = light.form {
         text.push_str(
             "    let cosine = -dot(l, light.axis.xyz);
     if cosine < light.axis.w {
@@ -130,9 +131,17 @@ fn light_of(rel: vec3f, n: vec3f, v: vec3f, base: vec3f, s: Surface) -> vec3f {
     }
 ",
         );
-        if has_exponent {
-            text.push_str("    strength = strength * power(max(cosine, 0.0), light.color.w);\n");
-        }
+        text.push_str(match form {
+            SpotForm::Even => "",
+            SpotForm::Cosine => {
+                "    strength = strength * power(max(cosine, 0.0), light.color.w);\n"
+            }
+            SpotForm::Beam => {
+                "    let left = clamp((cosine - light.axis.w) * light.attenuation.w, 0.0, 1.0);
+    strength = strength * power(left, light.color.w);
+"
+            }
+        });
     }
     text.push_str("    return strength * light.color.rgb * reflected(n, v, l, base, s);\n}\n");
     match light.shadow {

@@ -4,7 +4,7 @@
 //! texts would be equal.
 
 use crate::content::{
-    FogUse, LightShape, Look, Primitive, TextureUse, TextureUseModel, WorldLight,
+    FogUse, LightShape, Look, Primitive, SpotFade, TextureUse, TextureUseModel, WorldLight,
 };
 
 /// Which light a pass adds.
@@ -15,10 +15,18 @@ pub enum LightForm {
     /// All ways from a point.
     Point,
     /// A cone.
-    Spot {
-        /// The light weakens towards the cone's edge.
-        has_exponent: bool,
-    },
+    Spot(SpotForm),
+}
+
+/// How the light of a spot weakens towards its edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SpotForm {
+    /// It does not.
+    Even,
+    /// By a power of the cosine.
+    Cosine,
+    /// From an inner cone on.
+    Beam,
 }
 
 /// How the shader learns whether a point is in shadow.
@@ -54,9 +62,11 @@ impl LightKey {
             form: match light.shape {
                 LightShape::Directional { .. } => LightForm::Directional,
                 LightShape::Point { .. } => LightForm::Point,
-                LightShape::Spot { exponent, .. } => LightForm::Spot {
-                    has_exponent: exponent > 0.0,
-                },
+                LightShape::Spot { fade, .. } => LightForm::Spot(match fade {
+                    SpotFade::Cosine { exponent } if exponent > 0.0 => SpotForm::Cosine,
+                    SpotFade::Cosine { .. } => SpotForm::Even,
+                    SpotFade::Beam { .. } => SpotForm::Beam,
+                }),
             },
             is_attenuated: light.attenuation.is_some(),
             shadow,
@@ -255,10 +265,9 @@ fn contributions(is_transparent: bool) -> Vec<Contribution> {
     for form in [
         LightForm::Directional,
         LightForm::Point,
-        LightForm::Spot {
-            has_exponent: false,
-        },
-        LightForm::Spot { has_exponent: true },
+        LightForm::Spot(SpotForm::Even),
+        LightForm::Spot(SpotForm::Cosine),
+        LightForm::Spot(SpotForm::Beam),
     ] {
         for is_attenuated in BOTH {
             if is_attenuated && form == LightForm::Directional {

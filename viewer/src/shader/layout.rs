@@ -76,7 +76,7 @@ layouts! {
         axis: [f32; 4],
         /// Colour; spot exponent.
         color: [f32; 4],
-        /// Quadratic, linear, constant; unused.
+        /// Quadratic, linear, constant; 1 / (cosine of a spot's inner cone - that of its edge).
         attenuation: [f32; 4],
     }
     /// What is the same for a pass.

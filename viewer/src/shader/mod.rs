@@ -11,5 +11,5 @@ mod layout;
 mod tests;
 
 pub use emit::{BACKGROUND, EXTRACT, MAP, TYPES, VOLUME, emit, emit_present, emit_rays};
-pub use key::{Contribution, LightForm, LightKey, Shade, ShaderKey, ShadowLookup};
+pub use key::{Contribution, LightForm, LightKey, Shade, ShaderKey, ShadowLookup, SpotForm};
 pub use layout::{Frame, Instance, Light, PassValues, Surface, layouts};

@@ -48,7 +48,7 @@ struct Light {
     axis: vec4f,
     // Colour times intensity; spot exponent.
     color: vec4f,
-    // Quadratic, linear, constant; index of its shadow data.
+    // Quadratic, linear, constant; 1 / (cosine of a spot's inner cone - that of its edge), or 0.
     attenuation: vec4f,
 }
 

@@ -1,0 +1,5 @@
+//! cargo-fuzz: see the function in `tests::fuzz_targets`.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| tests::fuzz_targets::resolve(bytes));
