@@ -463,7 +463,11 @@ impl<'s> Draft<'s> {
     fn key_of_copy(&self) -> Option<(u32, Option<&'s str>, Option<&'s str>, Scope)> {
         match self.content {
             Content::Mesh(mesh)
-                if self.children.is_empty() && self.notes.is_empty() && self.text.is_none() =>
+                // Viewers turn the faces of a whole batch by its node alone.
+                if self.children.is_empty()
+                    && self.notes.is_empty()
+                    && self.text.is_none()
+                    && self.parent_from_local.matrix3.determinant() > 0.0 =>
             {
                 Some((mesh, self.name, self.class, self.scope))
             }

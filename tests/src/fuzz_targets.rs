@@ -15,7 +15,10 @@ use crate::fuzz_body;
 const LONGEST: usize = 64 << 10;
 
 /// A target's name and its function.
-pub const ALL: [(&str, fn(&[u8])); 7] = [
+pub type Target = (&'static str, fn(&[u8]));
+
+/// All targets.
+pub const ALL: [Target; 7] = [
     ("ascii", ascii),
     ("binary", binary),
     ("vrml97", vrml97),

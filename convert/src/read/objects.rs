@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DAffine3;
 use gltf::json::Index;
 use iv_parser::SourcePos;
+use rustc_hash::FxHashMap;
 use scenegraph::Loader;
 use scenegraph::scene::{Camera, Light, Material, Mesh, Placement, Wrap};
 use serde_json::Value;
@@ -98,12 +99,21 @@ pub(crate) fn images_of(glb: &[u8]) -> Result<Vec<Option<Arc<[u8]>>>, ReadError>
 }
 
 fn images(document: &Document, buffers: &Buffers) -> Vec<Option<Arc<[u8]>>> {
-    let image = |image: &gltf::json::Image| match (&image.buffer_view, &image.uri) {
-        (Some(view), _) => Some(buffers.view(document, *view).ok()?.0.into()),
+    // Images of one view share its bytes.
+    let mut views: FxHashMap<usize, Arc<[u8]>> = FxHashMap::default();
+    let mut image = |image: &gltf::json::Image| match (&image.buffer_view, &image.uri) {
+        (Some(view), _) => {
+            if let Some(known) = views.get(&view.value()) {
+                return Some(Arc::clone(known));
+            }
+            let bytes: Arc<[u8]> = buffers.view(document, *view).ok()?.0.into();
+            views.insert(view.value(), Arc::clone(&bytes));
+            Some(bytes)
+        }
         (None, Some(uri)) => Some(data_uri(uri)??.into()),
         (None, None) => None,
     };
-    document.root.images.iter().map(image).collect()
+    document.root.images.iter().map(&mut image).collect()
 }
 
 impl Objects {

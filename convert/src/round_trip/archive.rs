@@ -19,6 +19,8 @@ use super::paths::candidates;
 const VERSION: u64 = 1;
 /// Most bytes that a source may have when it is unpacked: as much as a parser takes.
 const MAX_BYTES: u64 = u32::MAX as u64;
+/// Beyond what is free, so often may the packed bytes fit into the unpacked ones.
+const MAX_RATIO: u64 = 200;
 /// Most files of a source.
 const MAX_FILES: usize = 100_000;
 
@@ -139,6 +141,9 @@ fn unpack_file(file: &Value, left: &mut u64) -> Result<Content, String> {
         .as_str()
         .and_then(|text| crate::read::base64(text.as_bytes()));
     let packed = packed.ok_or("a file is not base64")?;
+    if length > unpack::Limits::FREE_BYTES.max(MAX_RATIO * packed.len() as u64) {
+        return Err("a file is packed too well to be a model".to_owned());
+    }
     let mut bytes = Vec::new();
     // A byte more than it says tells a lie.
     let mut decoder = DeflateDecoder::new(&packed[..]).take(length + 1);

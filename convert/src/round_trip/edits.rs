@@ -336,12 +336,8 @@ fn all_near(a: &[f64], b: &[f64]) -> bool {
 /// Equal, or what is left of the one in f32.
 fn same_place(a: DVec3, b: DVec3) -> bool {
     let scale = a.abs().max_element();
-    let same = |a: f64, b: f64| {
-        let difference = (a - b).abs();
-        let is_f32 = f64::from(b as f32) == b;
-        difference <= EXACT_TOLERANCE * scale
-            || (is_f32 && difference <= f64::from(f32::EPSILON) * a.abs())
-    };
+    let same =
+        |a: f64, b: f64| (a - b).abs() <= EXACT_TOLERANCE * scale || b == f64::from(a as f32);
     same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z)
 }
 

@@ -18,7 +18,7 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use iv_parser::{Encoding, Limits};
+use iv_parser::{Dialect, Encoding, Limits};
 use scenegraph::scene::Scene;
 use scenegraph::{RegistryLayout, ResolveOptions, legal_name};
 
@@ -259,6 +259,14 @@ fn with_edits(
     let limits = &input.options.limits;
     let text = as_ascii(carried.archive.root());
     let parsed = iv_parser::parse(&text);
+    if parsed.tree.header.dialect == Dialect::Vrml2 {
+        return Err("edits are not put into texts of VRML 2.0".to_owned());
+    }
+    let (options, _) = made::from_value(&carried.archive.made);
+    let usual = Options::default();
+    if (options.up, options.metres_per_unit) != (usual.up, usual.metres_per_unit) {
+        return Err("edits are not put into texts whose model was turned or scaled".to_owned());
+    }
     let was = again(carried, &carried.files, &text, limits)?;
     let edits = Edits::between(&was.objects, edited);
     // An edited image whose name is taken gets another one.

@@ -96,13 +96,19 @@ impl Builder<'_> {
     }
 
     fn expand(&mut self, instance: &Instance) {
+        if self.has_copied_too_much(instance) {
+            return;
+        }
         let Some(index) = self.definition(instance) else {
             return;
         };
         let proto = &self.protos.list[index];
         let given = &self.protos.list[instance.proto];
+        let defaults = proto.slots.iter().filter_map(|s| s.default.as_ref());
+        self.expansion.copied += defaults.map(cost).sum::<usize>();
         let mut values: Vec<Option<FieldValue>> =
             proto.slots.iter().map(|s| s.default.clone()).collect();
+        let mut is_given = vec![false; values.len()];
         for (slot, value) in &instance.values {
             let from = &given.slots[*slot as usize];
             // An EXTERNPROTO may list the fields in another order.
@@ -113,6 +119,7 @@ impl Builder<'_> {
             };
             if let Some(to) = to {
                 values[to] = Some(value.clone());
+                is_given[to] = true;
             }
         }
         self.expansion.copied += values.len();
@@ -138,17 +145,35 @@ impl Builder<'_> {
         };
         copy.places.insert(root, instance.node);
         copy.open.push_back(root);
+        // What stands in the interface belongs to the prototype, as its body does.
+        for (value, _) in values
+            .iter_mut()
+            .zip(&is_given)
+            .filter(|(_, given)| !**given)
+        {
+            if let Some(value) = value {
+                copy.place_all(value, &mut self.nodes);
+            }
+        }
         while let Some(template) = copy.open.pop_front() {
-            if self.expansion.copied > MAX_COPIED {
-                if !std::mem::replace(&mut self.expansion.reported, true) {
-                    let message = "prototypes expand to more nodes than can be read".to_owned();
-                    let hint = "the rest was left out";
-                    self.say(Severity::Error, "too-many-copies", message, hint, instance);
-                }
+            if self.has_copied_too_much(instance) {
                 return;
             }
             self.copy_node(template, &mut copy, &values);
         }
+    }
+
+    /// Whether all copies together are more than may be; says so once.
+    fn has_copied_too_much(&mut self, instance: &Instance) -> bool {
+        if self.expansion.copied <= MAX_COPIED {
+            return false;
+        }
+        if !std::mem::replace(&mut self.expansion.reported, true) {
+            let message = "prototypes expand to more nodes than can be read".to_owned();
+            let hint = "the rest was left out";
+            self.say(Severity::Error, "too-many-copies", message, hint, instance);
+        }
+        true
     }
 
     /// The nodes of a template that depend on the instance: those with an `IS`, other instances

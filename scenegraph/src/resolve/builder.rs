@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use iv_parser::SourcePos;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::graph::NodeId;
+use crate::remarks::Remarks;
 use crate::scene::{
     Camera, Environment, EnvironmentId, Fog, Instance, Light, LightId, LightModel, LightSetId,
     Material, MaterialId, Mesh, MeshId, Node, Scene, Text, Texture, TextureId,
@@ -49,8 +51,15 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    pub fn finish(mut self) -> (Scene, Vec<Measure>) {
-        self.for_all.apply(&mut self.scene);
+    pub fn finish(mut self, remarks: &mut Remarks) -> (Scene, Vec<Measure>) {
+        if !self.for_all.apply(&mut self.scene) {
+            remarks.warn(
+                "too-many-lights",
+                "there are too many shapes and lights to tell which reaches which",
+                "some shapes are lit by lights beyond their radius, or not by all that reach them",
+                SourcePos::default(),
+            );
+        }
         labels::settle(&mut self.scene, &self.measures, &self.labels);
         (self.scene, self.measures)
     }

@@ -40,26 +40,33 @@ impl ForAll {
     }
 
     /// Gives every instance the lights that reach it, and the scene its fog.
-    pub fn apply(&self, scene: &mut Scene) {
+    /// False if shapes and lights are so many that all lights were taken as near, or the last shapes
+    /// kept the lights they had.
+    pub fn apply(&self, scene: &mut Scene) -> bool {
         if let Some(fog) = self.fog {
             for environment in &mut scene.environments {
                 environment.fog.get_or_insert(fog);
             }
         }
-        if !self.lights.is_empty() {
-            self.add_to_sets(scene);
-        }
+        self.lights.is_empty() || self.add_to_sets(scene)
     }
 
-    fn add_to_sets(&self, scene: &mut Scene) {
+    fn add_to_sets(&self, scene: &mut Scene) -> bool {
         let boxes: Vec<Aabb> = scene.meshes.iter().map(bounds).collect();
         let is_few = scene.instances.len().saturating_mul(self.lights.len()) <= MAX_TESTS;
         let mut sets: Vec<Vec<LightId>> = Vec::new();
         let mut known: FxHashMap<Vec<LightId>, LightSetId> = FxHashMap::default();
+        // By the set before, where all lights are taken as near.
+        let mut set_of: FxHashMap<LightSetId, LightSetId> = FxHashMap::default();
         let mut entries = 0;
         let before = std::mem::take(&mut scene.light_sets);
         for instance in &mut scene.instances {
-            let mut lights = before[instance.light_set.index()].clone();
+            let old = instance.light_set;
+            if let Some(&set) = set_of.get(&old) {
+                instance.light_set = set;
+                continue;
+            }
+            let mut lights = before[old.index()].clone();
             let local = boxes.get(instance.mesh.index());
             let reaches =
                 |reach: &&Reach| !is_few || local.is_none_or(|b| reach.touches(instance, b));
@@ -71,15 +78,19 @@ impl ForAll {
             }
             entries += lights.len();
             if entries > MAX_LIGHT_SET_ENTRIES {
-                lights.clear();
+                lights.clone_from(&before[old.index()]);
             }
             let set = LightSetId(sets.len() as u32);
             instance.light_set = *known.entry(lights.clone()).or_insert(set);
             if instance.light_set == set {
                 sets.push(lights);
             }
+            if !is_few || entries > MAX_LIGHT_SET_ENTRIES {
+                set_of.insert(old, instance.light_set);
+            }
         }
         scene.light_sets = sets;
+        is_few && entries <= MAX_LIGHT_SET_ENTRIES
     }
 }
 

@@ -129,8 +129,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    pub fn finish(self) -> (Scene, Vec<Measure>, Remarks) {
-        let (scene, measures) = self.builder.finish();
+    pub fn finish(mut self) -> (Scene, Vec<Measure>, Remarks) {
+        let (scene, measures) = self.builder.finish(&mut self.remarks);
         (scene, measures, self.remarks)
     }
 

@@ -15,8 +15,8 @@ use glam::DVec3;
 use crate::graph::{FieldValue, Node};
 use parse::{Expression, Statement, parse};
 
-/// Times that all expressions together are calculated.
-const MAX_LENGTH: usize = 100_000;
+/// Times that all expressions together are calculated, times the length of their text in bytes.
+const MAX_WORK: usize = 1_000_000;
 
 /// A number or a vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +27,24 @@ enum Value {
 
 /// Names by what they hold.
 type Names = BTreeMap<String, Value>;
+
+/// The work of calculating all once: it grows with the text of the expressions.
+fn round(engine: &Node) -> usize {
+    let texts = engine.value("expression").texts();
+    texts.iter().map(|text| text.len()).sum::<usize>().max(1)
+}
+
+/// The work of an output at the most.
+pub fn work(engine: &Node) -> usize {
+    let lists = engine
+        .fields
+        .iter()
+        .map(|field| field.value.numbers().len());
+    let longest = lists.max().unwrap_or(1).max(1);
+    longest
+        .saturating_mul(round(engine))
+        .min(MAX_WORK + round(engine))
+}
 
 /// An output of a Calculator; `None` if an expression cannot be read or none gives it.
 pub fn output(engine: &Node, name: &str) -> Option<FieldValue> {
@@ -41,8 +59,10 @@ pub fn output(engine: &Node, name: &str) -> Option<FieldValue> {
     let vectors: Vec<(char, &[f64])> = vectors.collect();
     let lengths = numbers.iter().map(|(_, list)| list.len());
     let lengths = lengths.chain(vectors.iter().map(|(_, list)| list.len() / 3));
-    let work = statements.len().max(1);
-    let count = lengths.max().unwrap_or(1).clamp(1, MAX_LENGTH / work + 1);
+    let count = lengths
+        .max()
+        .unwrap_or(1)
+        .clamp(1, MAX_WORK / round(engine) + 1);
     let mut out = Vec::new();
     for i in 0..count {
         let mut names = Names::new();

@@ -18,10 +18,13 @@ use rustc_hash::FxHashMap;
 
 use super::File;
 use crate::graph::{FieldEntry, FieldValue, Node, NodeId};
-use crate::registry::Family;
+use crate::registry::{Class, Family};
 
 /// Numbers that all connected fields of a file get: a small file can ask for any number of copies.
 const MAX_NUMBERS: usize = 10_000_000;
+
+/// Work that the Calculators of a file may make, as `calculator::work` tells it: some seconds.
+const MAX_CALCULATED: usize = 20_000_000;
 
 /// A field that is connected and has no value.
 pub(super) struct Link {
@@ -60,6 +63,7 @@ pub(super) fn settle(file: &mut File<'_, '_, '_, '_>) {
         inputs: std::mem::take(&mut file.inputs),
         known: FxHashMap::default(),
         room: MAX_NUMBERS,
+        work: MAX_CALCULATED,
     };
     let mut of_node: FxHashMap<NodeId, Vec<usize>> = FxHashMap::default();
     for (i, link) in links.iter().enumerate() {
@@ -114,6 +118,8 @@ struct Masters {
     known: FxHashMap<(NodeId, String), Option<FieldValue>>,
     /// Numbers that may still be given.
     room: usize,
+    /// Work that Calculators may still make.
+    work: usize,
 }
 
 fn give(file: &mut File<'_, '_, '_, '_>, link: &Link, masters: &mut Masters) {
@@ -154,6 +160,9 @@ impl Masters {
         let value = if spec.family == Family::Engine {
             let inputs = &self.inputs;
             let key = (link.master, link.output.clone());
+            if master.class() == Some(Class::Calculator) && !self.known.contains_key(&key) {
+                self.work = self.work.checked_sub(calculator::work(master))?;
+            }
             let input = |name: &str| inputs.get(&(link.master, name.into())).cloned();
             let made = || engine::output(master, &link.output, &input);
             self.known.entry(key).or_insert_with(made).clone()?

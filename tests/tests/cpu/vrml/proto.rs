@@ -31,6 +31,15 @@ const ROWS: &[Row] = &[
         6.0,
         &[],
     ),
+    // Instances as values: the defaults are made anew for each instance.
+    (
+        "PROTO Q [ field SFVec3f s 3 1 1 ] { Shape { geometry Box { size IS s } } }
+         PROTO P [ field MFNode parts [ Q { } Q { s 4 1 1 } ] ] { Group { children IS parts } }
+         P { } P { parts Q { s 5 1 1 } }",
+        3,
+        5.0,
+        &[],
+    ),
     // A prototype where a geometry, an appearance or a material stands.
     (
         "PROTO G [ field SFVec3f s 1 1 1 ] { Box { size IS s } }
