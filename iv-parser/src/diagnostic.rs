@@ -3,6 +3,7 @@
 //! A diagnostic owns all it says, so it outlives the bytes it speaks of. Losses of an output
 //! format are not diagnostics; they belong to the writer.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -108,8 +109,9 @@ impl fmt::Display for Severity {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{}", self.file, self.pos)?;
-        write!(f, ": {}[{}]: {}", self.severity, self.code, self.message)?;
+        let message = one_line(&self.message);
+        write!(f, "{}{}", one_line(&self.file), self.pos)?;
+        write!(f, ": {}[{}]: {message}", self.severity, self.code)?;
         let number = self.pos.line.to_string();
         if let Some(snippet) = &self.snippet {
             let pad = " ".repeat(number.len());
@@ -123,8 +125,17 @@ impl fmt::Display for Diagnostic {
         }
         if !self.hint.is_empty() {
             let pad = " ".repeat(number.len());
-            write!(f, "\n {pad} = {}", self.hint)?;
+            write!(f, "\n {pad} = {}", one_line(&self.hint))?;
         }
         Ok(())
+    }
+}
+
+/// Names come from the input: a line break in one must not begin what looks like another message.
+fn one_line(text: &str) -> Cow<'_, str> {
+    if text.contains(['\n', '\r']) {
+        text.replace(['\n', '\r'], "\u{fffd}").into()
+    } else {
+        text.into()
     }
 }

@@ -25,7 +25,7 @@ mod write;
 pub use font::AddedFont;
 pub use graph::Graph;
 pub use loader::{FileLoader, LoadError, Loaded, Loader};
-pub use lower::{RegistryLayout, load, load_with};
+pub use lower::{RegistryLayout, is_other_text, load, load_with};
 pub use resolve::{Geometry, ResolveLimits, ResolveOptions, Resolved, resolve};
 pub use shape::Measure;
 pub use write::{ImageForm, SceneText, legal_name, write_scene, write_shape};

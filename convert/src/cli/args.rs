@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use clap::{Parser, ValueEnum};
+use convert::Options;
 use convert::command::access::PackedArgs;
 
 use super::choices::Choices;
@@ -212,11 +213,19 @@ impl Args {
 }
 
 impl Args {
-    /// `--embed` goes with .gltf and .iv.
+    /// `--embed` goes with .gltf and .iv, what shapes glTF with all but .iv.
     fn embeddable(&self, format: Format) -> Result<Format, String> {
         if self.embed && !matches!(format, Format::Gltf | Format::Iv) {
             return Err(
                 "--embed is for .gltf and .iv; .glb and .html hold all in one file".to_owned(),
+            );
+        }
+        let usual = Options::default();
+        let shapes_gltf = self.choices.apply(usual.clone()) != usual || self.round_trip;
+        if format == Format::Iv && shapes_gltf {
+            return Err(
+                "options of how the glTF is made, and --round-trip, have no effect on .iv"
+                    .to_owned(),
             );
         }
         Ok(format)

@@ -17,6 +17,16 @@ use super::job::{Outcome, Settings};
 /// Why glTF is not made of glTF.
 pub const IS_GLTF: &str = "it is glTF already; glTF is made of Inventor models only, and Inventor of glTF with `-o NAME.iv`";
 
+/// Whether a folder on the way to a file is a link.
+fn leads_away(folder: &Path, name: &str) -> bool {
+    let parents = Path::new(name).ancestors().skip(1);
+    let is_link = |parent: &Path| {
+        let found = fs::symlink_metadata(folder.join(parent));
+        found.is_ok_and(|found| found.file_type().is_symlink())
+    };
+    parents.filter(|p| !p.as_os_str().is_empty()).any(is_link)
+}
+
 /// Converts a `.glb` or `.gltf`.
 pub fn to_inventor(
     outcome: &mut Outcome,
@@ -38,6 +48,11 @@ pub fn to_inventor(
     let mut written = 0;
     for (name, bytes) in &made.beside {
         let file = folder.join(name);
+        if leads_away(folder, name) {
+            return Err(format!(
+                "`{name}` would be written through a link to another folder"
+            ));
+        }
         atomic::make_folder_of(&file)?;
         written += atomic::write(&file, |out| out.write_all(bytes))
             .map_err(|error| atomic::cannot_write(&file, &error))?;

@@ -29,8 +29,12 @@ impl<'a> Text<'a> {
             file: 0,
             bytes,
         };
-        let dropped = parse.problems_dropped;
-        let mut diagnostics = source.diagnostics(parse.problems);
+        // What the parser says about bytes of another format means nothing.
+        let (problems, dropped) = match scenegraph::is_other_text(&parse) {
+            Some(problem) => (vec![problem], 0),
+            None => (parse.problems, parse.problems_dropped),
+        };
+        let mut diagnostics = source.diagnostics(problems);
         if dropped > 0 {
             diagnostics.push(Diagnostic {
                 severity: Severity::Warning,

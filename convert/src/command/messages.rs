@@ -81,7 +81,9 @@ pub fn error(why: &str) -> String {
 /// Names and texts come from the input: they must not steer the terminal.
 pub fn printable(text: &str) -> String {
     let show = |c: char| {
-        if c.is_control() && c != '\n' {
+        // What turns the direction of writing hides the order of what is shown.
+        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        if turns || c.is_control() && c != '\n' {
             char::REPLACEMENT_CHARACTER
         } else {
             c

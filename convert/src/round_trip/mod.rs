@@ -412,8 +412,29 @@ fn unedited(input: &Input<'_>, carried: &Carried) -> InventorFiles {
 }
 
 /// Adds what the source refers to, as far as it is not there. Nothing is written over.
+/// Whether bytes are what a model refers to. Others may come from a file that somebody made up, and
+/// do not belong on a disk.
+fn is_of_a_model(path: &str, bytes: &[u8]) -> bool {
+    const SGI_IMAGE: &[u8] = &[0x01, 0xda];
+    let begins = [b"#Inventor".as_slice(), b"#VRML", SGI_IMAGE]
+        .iter()
+        .any(|magic| bytes.starts_with(magic));
+    // Targa has no mark of its own.
+    let is_targa = path.to_ascii_lowercase().ends_with(".tga");
+    begins || is_targa || image::guess_format(bytes).is_ok() || unpack::Format::of(bytes).is_some()
+}
+
 fn beside(input: &Input<'_>, source: &Unpacked, files: &mut InventorFiles) {
     for (path, bytes) in source.files.iter().skip(1) {
+        if !is_of_a_model(path, bytes) {
+            files.note(
+                "no-image",
+                format!("`{path}`, which the file carries, is neither an image nor a model"),
+                "it was not written",
+                true,
+            );
+            continue;
+        }
         match (input.existing)(path) {
             None => files.beside.push((path.clone(), Arc::clone(bytes))),
             Some(found) if *found == **bytes => {}

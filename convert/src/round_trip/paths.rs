@@ -1,9 +1,11 @@
 //! Paths of files beside a model, as its text names them: with `/`, below the model's folder.
 
-/// Whether a path stays below the folder it is joined to, on any system.
+/// Whether a path stays below the folder it is joined to, on any system, and names nothing that is
+/// hidden or cannot be shown.
 pub(crate) fn is_clean(path: &str) -> bool {
-    let legal = |part: &str| !part.is_empty() && part != "." && part != "..";
-    path.is_empty() || (!path.contains(['\\', ':', '\0']) && path.split('/').all(legal))
+    let legal = |part: &str| !part.is_empty() && !part.starts_with('.');
+    let shown = |c: char| !c.is_control() && !matches!(c, '\\' | ':');
+    path.is_empty() || (path.chars().all(shown) && path.split('/').all(legal))
 }
 
 /// A name as written, with the separators of this form.

@@ -216,6 +216,12 @@ fn unpacked<'b>(bytes: &'b [u8], limits: &unpack::Limits) -> (Cow<'b, [u8]>, Opt
     }
 }
 
+/// Says that bytes are no model: there is neither a header nor a single known class.
+pub fn is_other_text(parse: &iv_parser::Parse<'_>) -> Option<Problem> {
+    let without_header = parse.problems.iter().any(|p| p.code == "no-header");
+    (without_header && !has_known_class(&parse.tree)).then(unreadable)
+}
+
 fn has_known_class(tree: &Tree<'_>) -> bool {
     let mut nodes = (0..tree.node_count() as u32).map(|i| tree.node(iv_parser::NodeId(i)));
     nodes.any(|node| Class::from_name(node.class).is_some())
