@@ -264,6 +264,10 @@ fn edits_arrive_in_the_source() {
         for _ in 0..8 {
             let edit = edit().new_tree(&mut runner).expect("an edit").current();
             match fate(&model, &glb, &edit) {
+                // Edits are not put into texts of VRML 2.0.
+                Ok(fate) if text.starts_with(b"#VRML V2.0") => {
+                    assert_ne!(fate, Fate::Patched, "{}", model.name);
+                }
                 Ok(fate) => {
                     if fate == Fate::Anew {
                         println!("{} {edit:?}", model.name);
