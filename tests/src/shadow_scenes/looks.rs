@@ -19,17 +19,6 @@ pub fn many_lights() -> ShadowScene {
     text.lamp("SpotLight", DVec3::new(-1.0, 3.0, 1.0), spot);
     let narrow = "direction -0.5 -1 0.1 cutOffAngle 0.25 dropOffRate 0 color 0.6 0.6 1";
     text.lamp("SpotLight", DVec3::new(1.2, 3.2, -0.8), narrow);
-    for (hints, place) in [
-        (
-            "beamWidthAngle 0.3 LightSource.concentrationExponent 1.8",
-            -0.6,
-        ),
-        ("beamWidthAngle 0.5", 0.8),
-    ] {
-        text.raw(&format!("Info {{ string \"LightSource.{hints}\" }}"));
-        let beam = "direction 0.1 -1 0.2 cutOffAngle 0.5 dropOffRate 0.3 color 0.7 0.3 0.7";
-        text.lamp("SpotLight", DVec3::new(place, 3.1, 0.4), beam);
-    }
     text.raw("DirectionalLight { direction -0.4 -1 -0.7 color 0.9 0.9 0.7 intensity 0.4 }");
     text.raw("DirectionalLight { direction 0.9 -0.5 0.1 color 0.4 0.5 0.9 intensity 0.3 }");
     text.floor(0.0, 4.0);
@@ -68,6 +57,39 @@ pub fn many_lights() -> ShadowScene {
     }
     ShadowScene {
         name: "lights of all kinds",
+        text: text.finish(),
+        cameras: vec![
+            ("over", over()),
+            (
+                "low",
+                perspective(DVec3::new(-2.0, 0.9, 4.0), DVec3::new(0.0, 0.5, 0.0), 0.4),
+            ),
+        ],
+    }
+}
+
+/// Spot lights that fade from an inner cone to nothing; where they do, no mask can tell light from
+/// shadow.
+pub fn beams() -> ShadowScene {
+    let mut text = Text::new();
+    for (hints, place) in [
+        (
+            "beamWidthAngle 0.3 LightSource.concentrationExponent 1.8",
+            -0.6,
+        ),
+        ("beamWidthAngle 0.5", 0.8),
+    ] {
+        text.raw(&format!("Info {{ string \"LightSource.{hints}\" }}"));
+        let beam = "direction 0.1 -1 0.2 cutOffAngle 0.5 dropOffRate 0.3 color 0.7 0.3 0.7";
+        text.lamp("SpotLight", DVec3::new(place, 3.1, 0.4), beam);
+    }
+    text.floor(0.0, 4.0);
+    text.colored(
+        [0.8, 0.7, 0.3],
+        &Mesh::cuboid([-0.4, 0.2, -0.4], [0.4, 1.0, 0.4]),
+    );
+    ShadowScene {
+        name: "beams",
         text: text.finish(),
         cameras: vec![
             ("over", over()),

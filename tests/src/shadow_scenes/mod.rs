@@ -13,7 +13,7 @@ pub use edges::{
     three_quads,
 };
 pub use layers::{LAYERS, nested_open_shells, nested_shells, quad_stack};
-pub use looks::{fogs, many_lights, panes, textures, vertex_colors};
+pub use looks::{beams, fogs, many_lights, panes, textures, vertex_colors};
 pub use places::{
     closed_room, culled_casters, eye_in_shadow, eye_on_side_plane, far_by_coordinates,
     far_by_transform, light_in_plane, mirrored, parallel_views, parallel_views_of_lamp,

@@ -186,6 +186,7 @@ fn headlight(of: ShadowScene) -> Row {
 fn shading_of_all_looks() {
     let large = [
         shadow_scenes::many_lights(),
+        shadow_scenes::beams(),
         shadow_scenes::panes(),
         shadow_scenes::vertex_colors(),
     ];
