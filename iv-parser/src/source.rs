@@ -46,6 +46,46 @@ pub struct Problem {
     pub span: Span,
 }
 
+/// The problems of a file, the first of them kept and the rest counted.
+#[derive(Debug)]
+pub(crate) struct Problems {
+    pub list: Vec<Problem>,
+    pub dropped: usize,
+    /// Most that are kept.
+    most: usize,
+}
+
+impl Problems {
+    pub fn new(list: Vec<Problem>, most: usize) -> Self {
+        Self {
+            list,
+            dropped: 0,
+            most,
+        }
+    }
+
+    pub fn add(
+        &mut self,
+        severity: Severity,
+        code: &'static str,
+        message: &str,
+        hint: &str,
+        span: Span,
+    ) {
+        if self.list.len() >= self.most {
+            self.dropped += 1;
+            return;
+        }
+        self.list.push(Problem {
+            severity,
+            code,
+            message: message.to_owned(),
+            hint: hint.to_owned(),
+            span,
+        });
+    }
+}
+
 /// A named text, to turn spans into places.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {

@@ -36,7 +36,7 @@ use crate::diagnostic::Severity;
 use crate::header::Header;
 use crate::limits::Limits;
 use crate::parse::Parse;
-use crate::source::{Problem, Span};
+use crate::source::{Problem, Problems, Span};
 use crate::tree::{Atom, Child, FieldId, Item, NodeId, Tree};
 
 use words::Words;
@@ -67,8 +67,7 @@ pub(crate) fn parse_binary<'a>(
         described: Vec::new(),
         ints: Vec::new(),
         floats: Vec::new(),
-        problems,
-        problems_dropped: 0,
+        problems: Problems::new(problems, limits.problems),
         not_finite_reported: false,
     };
     if bytes.len() > limits.bytes {
@@ -85,8 +84,8 @@ pub(crate) fn parse_binary<'a>(
     reader.tree.float_lists.close();
     Parse {
         tree: reader.tree,
-        problems: reader.problems,
-        problems_dropped: reader.problems_dropped,
+        problems: reader.problems.list,
+        problems_dropped: reader.problems.dropped,
     }
 }
 
@@ -156,8 +155,7 @@ struct Reader<'a, 's> {
     /// Buffers for the numbers being read.
     ints: Vec<i32>,
     floats: Vec<f64>,
-    problems: Vec<Problem>,
-    problems_dropped: usize,
+    problems: Problems,
     not_finite_reported: bool,
 }
 
@@ -283,17 +281,7 @@ impl<'a> Reader<'a, '_> {
         hint: &str,
         span: Span,
     ) {
-        if self.problems.len() >= self.limits.problems {
-            self.problems_dropped += 1;
-            return;
-        }
-        self.problems.push(Problem {
-            severity,
-            code,
-            message: message.to_owned(),
-            hint: hint.to_owned(),
-            span,
-        });
+        self.problems.add(severity, code, message, hint, span);
     }
 }
 

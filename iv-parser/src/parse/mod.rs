@@ -19,7 +19,7 @@ use crate::diagnostic::Severity;
 use crate::header::{Dialect, Encoding, Header, read_header};
 use crate::lex;
 use crate::limits::Limits;
-use crate::source::{Problem, Span};
+use crate::source::{Problem, Problems, Span};
 use crate::tree::{Atom, Child, FieldId, Item, Node, NodeId, Tree};
 
 /// A tree, and what was wrong with its text.
@@ -85,8 +85,7 @@ fn parse_text<'a>(
         unclosed: false,
         ended_inside: false,
         run: numbers::Run::default(),
-        problems,
-        problems_dropped: 0,
+        problems: Problems::new(problems, limits.problems),
         overflow_reported: false,
         nan_reported: false,
     };
@@ -101,15 +100,15 @@ fn parse_text<'a>(
     }
     // The bytes of another format are no text to look for nodes in.
     let is_foreign = |p: &Problem| p.code == "unsupported-format";
-    if !parser.problems.iter().any(is_foreign) {
+    if !parser.problems.list.iter().any(is_foreign) {
         parser.run();
     }
     parser.tree.int_lists.close();
     parser.tree.float_lists.close();
     Parse {
         tree: parser.tree,
-        problems: parser.problems,
-        problems_dropped: parser.problems_dropped,
+        problems: parser.problems.list,
+        problems_dropped: parser.problems.dropped,
     }
 }
 
@@ -157,8 +156,7 @@ struct Parser<'a> {
     ended_inside: bool,
     /// Buffers for the run of numbers being read.
     run: numbers::Run,
-    problems: Vec<Problem>,
-    problems_dropped: usize,
+    problems: Problems,
     overflow_reported: bool,
     nan_reported: bool,
 }
@@ -413,17 +411,7 @@ impl<'a> Parser<'a> {
         hint: &str,
         span: Span,
     ) {
-        if self.problems.len() >= self.limits.problems {
-            self.problems_dropped += 1;
-            return;
-        }
-        self.problems.push(Problem {
-            severity,
-            code,
-            message: message.to_owned(),
-            hint: hint.to_owned(),
-            span,
-        });
+        self.problems.add(severity, code, message, hint, span);
     }
 }
 
