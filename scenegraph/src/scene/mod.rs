@@ -16,6 +16,7 @@ mod check;
 mod light;
 mod material;
 mod mesh;
+mod subset;
 mod text;
 
 pub use check::Fault;

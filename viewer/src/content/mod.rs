@@ -4,6 +4,7 @@
 //! Knows no camera and no GPU. An object is one instance of the scene; hidden or empty instances
 //! have none.
 
+mod edits;
 mod lights;
 mod look;
 pub mod positions;
@@ -11,8 +12,9 @@ mod surface;
 
 use geometry::bounds::Aabb;
 use glam::DAffine3;
-use scenegraph::scene::{Faces, MeshId, Scene, TextureId, Topology};
+use scenegraph::scene::{EnvironmentId, Faces, MaterialId, MeshId, Scene, TextureId, Topology};
 
+pub use edits::{Edits, FaceEdit, LightEdit};
 pub use lights::{LightShape, SpotFade, WorldLight, world_lights};
 pub use look::{FogUse, Look, Primitive, TextureUse, TextureUseModel};
 pub use surface::{Surface, SurfaceFog};
@@ -33,6 +35,8 @@ pub struct Object {
     pub texture: Option<TextureId>,
     /// What the shader depends on.
     pub look: Look,
+    /// The user does not want to see it; nor its shadow.
+    pub is_hidden: bool,
     /// Back faces are not drawn.
     pub is_culled: bool,
     /// `world_from_local` turns right into left, and so front into back.
@@ -46,9 +50,9 @@ pub struct Object {
 }
 
 impl Object {
-    /// Whether it throws shadows: opaque triangles do.
+    /// Whether it throws shadows: opaque triangles that are shown do.
     pub fn is_caster(&self) -> bool {
-        self.look.primitive == Primitive::Triangles && !self.look.is_transparent
+        self.look.primitive == Primitive::Triangles && !self.look.is_transparent && !self.is_hidden
     }
 }
 
@@ -59,6 +63,8 @@ pub struct Content {
     pub objects: Vec<Object>,
     /// Distinct pairs of material and environment.
     pub surfaces: Vec<Surface>,
+    /// What each of them is made of.
+    pub surface_ids: Vec<(MaterialId, EnvironmentId)>,
     /// The lights of the scene, in its order.
     pub lights: Vec<WorldLight>,
     /// Which lights reach an object, by [`Object::light_set`]; indices into `lights`, ascending.
@@ -95,6 +101,7 @@ impl Content {
                 surface: surfaces.index_of(scene, instance.material, instance.environment),
                 texture,
                 look,
+                is_hidden: false,
                 is_culled: material.faces == Faces::FrontOnly
                     && mesh.topology == Topology::Triangles,
                 is_mirrored: local.matrix3.determinant() < 0.0,
@@ -104,9 +111,14 @@ impl Content {
             });
             content.bounds = content.bounds.union(&bounds);
         }
-        content.surfaces = surfaces.list;
-        // Stable, so that equal objects keep the order of the scene.
-        content.objects.sort_by_key(|object| {
+        (content.surfaces, content.surface_ids) = surfaces.finish();
+        content.sort();
+        content
+    }
+
+    /// Stable, so that equal objects keep the order they have.
+    fn sort(&mut self) {
+        self.objects.sort_by_key(|object| {
             (
                 object.look.is_transparent,
                 object.look,
@@ -114,9 +126,9 @@ impl Content {
                 object.is_mirrored,
                 object.texture,
                 object.mesh,
+                object.instance,
             )
         });
-        content
     }
 
     /// How many objects, from the first on, are opaque.

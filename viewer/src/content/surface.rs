@@ -41,8 +41,8 @@ pub struct Surface {
 #[derive(Default)]
 pub struct Surfaces {
     index: FxHashMap<(MaterialId, EnvironmentId), u32>,
-    /// In the order of first use.
-    pub list: Vec<Surface>,
+    list: Vec<Surface>,
+    ids: Vec<(MaterialId, EnvironmentId)>,
 }
 
 impl Surfaces {
@@ -58,19 +58,32 @@ impl Surfaces {
             .entry((material, environment))
             .or_insert_with(|| {
                 let index = u32::try_from(self.list.len()).unwrap_or(u32::MAX);
-                self.list.push(surface(scene, material, environment));
+                self.list.push(surface(scene, material, environment, 1.0));
+                self.ids.push((material, environment));
                 index
             })
     }
+
+    /// The surfaces in the order of first use, and what each is made of.
+    pub fn finish(self) -> (Vec<Surface>, Vec<(MaterialId, EnvironmentId)>) {
+        (self.list, self.ids)
+    }
 }
 
-fn surface(scene: &Scene, material: MaterialId, environment: EnvironmentId) -> Surface {
+/// The numbers of a pair, with so many times the ambient light.
+pub fn surface(
+    scene: &Scene,
+    material: MaterialId,
+    environment: EnvironmentId,
+    ambient_factor: f64,
+) -> Surface {
     let material = &scene.materials[material.index()];
     let environment = &scene.environments[environment.index()];
     let ambient = |i: usize| {
         material.emissive_srgb[i]
             + material.ambient_srgb[i]
                 * environment.ambient_intensity
+                * ambient_factor
                 * environment.ambient_color_srgb[i]
     };
     Surface {

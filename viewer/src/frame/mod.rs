@@ -15,4 +15,4 @@ pub use cull::Frustum;
 pub use far_plane::{far_plane, is_cut, rel_plane};
 pub use plan::{Draw, Pass, PassKind, Pixels, Plan, Skip, SkipReason, VolumeDraw};
 pub use planner::plan;
-pub use settings::{Extraction, Settings, Shadows, VolumeMethod};
+pub use settings::{Extraction, Headlight, Settings, Shadows, VolumeMethod};

@@ -11,8 +11,8 @@ use super::cull::{self, Frustum};
 use super::lists::{Counts, Draws};
 use super::needs::Needed;
 use super::plan::{Draw, Pass, PassKind, Pixels, Plan, SkipReason};
-use super::settings::{Settings, Shadows};
-use crate::content::{Content, LightShape, Object, WorldLight};
+use super::settings::{Headlight, Settings, Shadows};
+use crate::content::{Content, LightShape, Look, Object, WorldLight};
 use crate::shader::{Contribution, LightKey, ShaderKey, ShadowLookup};
 use crate::view::{Lens, Region, View};
 
@@ -39,9 +39,14 @@ pub fn plan(
 ) -> Plan {
     let frustum = Frustum::new(view, region.aspect);
     let mut lights = content.lights.clone();
-    let headlight = (lights.is_empty() && settings.has_headlight).then(|| {
+    let has_headlight = match settings.headlight {
+        Headlight::Off => false,
+        Headlight::WhenAlone => lights.is_empty(),
+        Headlight::On => true,
+    };
+    let headlight = has_headlight.then(|| {
         lights.push(headlight(view));
-        0
+        lights.len() as u32 - 1
     });
     let planner = Planner {
         content,
@@ -52,7 +57,7 @@ pub fn plan(
         is_visible: content
             .objects
             .iter()
-            .map(|object| frustum.may_see(&object.bounds))
+            .map(|object| !object.is_hidden && frustum.may_see(&object.bounds))
             .collect(),
         frustum,
         lights,
@@ -135,6 +140,11 @@ impl Planner<'_> {
         }
     }
 
+    fn key(&self, look: &Look, contribution: Contribution) -> ShaderKey {
+        let is_cut = self.settings.section.is_some();
+        ShaderKey::new(look, contribution, self.is_parallel()).cut(is_cut)
+    }
+
     fn is_parallel(&self) -> bool {
         matches!(self.view.lens, Lens::Orthographic { .. })
     }
@@ -184,7 +194,7 @@ impl Planner<'_> {
         let mut draws = Draws::default();
         for index in self.opaque().filter(|&i| self.is_visible[i as usize]) {
             let object = self.object(index);
-            let key = ShaderKey::new(&object.look, Contribution::Depth, self.is_parallel());
+            let key = self.key(&object.look, Contribution::Depth);
             draws.add(index, object, key, Pixels::All);
         }
         Pass {
@@ -213,7 +223,7 @@ impl Planner<'_> {
                 continue;
             }
             let key = |light| {
-                ShaderKey::new(&object.look, Contribution::First(light), self.is_parallel())
+                self.key(&object.look, Contribution::First(light))
             };
             let light = light
                 .filter(|&light| self.unlit_reason(light, index).is_none())
@@ -259,7 +269,7 @@ impl Planner<'_> {
                 continue;
             }
             let object = self.object(index);
-            let key = ShaderKey::new(&object.look, Contribution::Light(key), self.is_parallel());
+            let key = self.key(&object.look, Contribution::Light(key));
             draws.add(index, object, key, Pixels::Lit);
         }
         passes.push(Pass {
@@ -296,11 +306,7 @@ impl Planner<'_> {
             .into_iter()
             .map(|(_, index)| Draw {
                 objects: index..index + 1,
-                shader: ShaderKey::new(
-                    &self.object(index).look,
-                    Contribution::All,
-                    self.is_parallel(),
-                ),
+                shader: self.key(&self.object(index).look, Contribution::All),
                 pixels: Pixels::All,
             })
             .collect();

@@ -1,5 +1,9 @@
 //! What a user may choose about a frame.
 
+use glam::DVec4;
+
+use crate::overlay::Overlay;
+
 /// How the edges of shadow volumes are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VolumeMethod {
@@ -53,6 +57,18 @@ impl Default for Shadows {
     }
 }
 
+/// When a light shines that is bound to the eye.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Headlight {
+    /// Never.
+    Off,
+    /// When the scene has no light of its own.
+    #[default]
+    WhenAlone,
+    /// Always.
+    On,
+}
+
 /// What a user may choose about a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -62,10 +78,15 @@ pub struct Settings {
     pub samples: u32,
     /// Colours behind everything, top and bottom; display-referred.
     pub background_srgb: [[f64; 3]; 2],
-    /// Whether an eye-bound light shines when the scene has no light of its own.
-    pub has_headlight: bool,
+    /// When a light shines that is bound to the eye.
+    pub headlight: Headlight,
     /// Draw volumes by z-pass where that is proven safe; else by z-fail always.
     pub allows_z_pass: bool,
+    /// `n . p + d > 0` is cut away, with n of unit length; what is cut away still throws its
+    /// shadow.
+    pub section: Option<DVec4>,
+    /// What is drawn over the picture.
+    pub overlay: Overlay,
 }
 
 impl Default for Settings {
@@ -74,8 +95,10 @@ impl Default for Settings {
             shadows: Shadows::default(),
             samples: 1,
             background_srgb: [[0.0; 3]; 2],
-            has_headlight: true,
+            headlight: Headlight::WhenAlone,
             allows_z_pass: true,
+            section: None,
+            overlay: Overlay::default(),
         }
     }
 }

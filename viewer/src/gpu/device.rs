@@ -52,6 +52,10 @@ pub struct Gpu {
     pub adapter: wgpu::Adapter,
     /// Volumes may reach behind the near plane without being cut.
     pub has_depth_clip_control: bool,
+    /// Triangles can be drawn as their edges.
+    pub has_wireframe: bool,
+    /// Triangles can be drawn as their corners.
+    pub has_points: bool,
     error: Arc<Mutex<Option<String>>>,
 }
 
@@ -69,7 +73,9 @@ impl Gpu {
         let info = adapter.get_info();
         let wanted = wgpu::Features::DEPTH32FLOAT_STENCIL8
             | wgpu::Features::DEPTH_CLIP_CONTROL
-            | wgpu::Features::TIMESTAMP_QUERY;
+            | wgpu::Features::TIMESTAMP_QUERY
+            | wgpu::Features::POLYGON_MODE_LINE
+            | wgpu::Features::POLYGON_MODE_POINT;
         let features = adapter.features() & wanted;
         if !features.contains(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
             return Err(GpuError::Device(format!(
@@ -101,6 +107,8 @@ impl Gpu {
             instance,
             adapter,
             has_depth_clip_control: features.contains(wgpu::Features::DEPTH_CLIP_CONTROL),
+            has_wireframe: features.contains(wgpu::Features::POLYGON_MODE_LINE),
+            has_points: features.contains(wgpu::Features::POLYGON_MODE_POINT),
             error,
         })
     }

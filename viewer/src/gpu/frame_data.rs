@@ -6,6 +6,7 @@ use super::binding::{self, Layouts};
 use super::device::Gpu;
 use crate::content::{Content, LightShape, SpotFade, Surface, WorldLight};
 use crate::frame::{Plan, rel_plane};
+use crate::overlay;
 use crate::shader;
 use crate::view::{Lens, Region, View};
 
@@ -108,7 +109,7 @@ impl FrameData {
     ) {
         let has_headlight = plan.lights.len() > content.lights.len();
         let (lists, spans) = light_lists(content, has_headlight);
-        let instances: Vec<shader::Instance> = content
+        let mut instances: Vec<shader::Instance> = content
             .objects
             .iter()
             .map(|object| {
@@ -119,6 +120,8 @@ impl FrameData {
                 )
             })
             .collect();
+        let anchor = DAffine3::from_translation(overlay::anchor(content));
+        instances.push(instance(&rel_from(view, &anchor), [0; 4]));
         let far = view
             .depth_bounds(&content.bounds)
             .map_or(0.0, |(_, far)| far);
@@ -180,14 +183,13 @@ fn pass_group(gpu: &Gpu, layouts: &Layouts, passes: &Grown) -> wgpu::BindGroup {
 
 /// The lists one after the other, and for each set its first entry and length.
 fn light_lists(content: &Content, has_headlight: bool) -> (Vec<u32>, Vec<[u32; 2]>) {
-    if has_headlight {
-        return (vec![0], vec![[0, 1]; content.light_sets.len()]);
-    }
+    let headlight = has_headlight.then_some(content.lights.len() as u32);
     let mut lists = Vec::new();
     let mut spans = Vec::new();
     for set in &content.light_sets {
-        spans.push([lists.len() as u32, set.len() as u32]);
-        lists.extend(set);
+        let first = lists.len() as u32;
+        lists.extend(set.iter().copied().chain(headlight));
+        spans.push([first, lists.len() as u32 - first]);
     }
     if lists.is_empty() {
         lists.push(0);
@@ -210,6 +212,7 @@ pub fn frame(
     clip_from_view: DMat4,
     region: &Region,
     rays_origin: DVec3,
+    section: Option<DVec4>,
 ) -> shader::Frame {
     let view_from_rel = DMat4::from_quat(view.orientation.conjugate());
     let is_parallel = matches!(view.lens, Lens::Orthographic { .. });
@@ -224,6 +227,10 @@ pub fn frame(
         eye_in_rays: xyzw(view.eye - rays_origin, 0.0),
         rel_from_clip: clip_from_rel.inverse().as_mat4().to_cols_array_2d(),
         region: [region.x, region.y, region.width, region.height],
+        section: section.map_or([0.0; 4], |plane| {
+            let n = plane.truncate();
+            xyzw(n, n.dot(view.eye) + plane.w)
+        }),
     }
 }
 

@@ -6,6 +6,8 @@ mod compute;
 mod device;
 mod frame_data;
 mod geometry;
+mod overlay;
+mod pipeline_flat;
 mod pipeline_key;
 mod pipeline_make;
 mod pipelines;

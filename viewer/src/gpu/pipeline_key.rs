@@ -58,6 +58,23 @@ pub enum VolumePart {
     },
 }
 
+/// What is drawn over the picture in a colour of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FlatKind {
+    /// Triangles that are seen.
+    Tint,
+    /// Triangles behind others.
+    TintBehind,
+    /// The edges of triangles.
+    Wire,
+    /// The corners of triangles.
+    Point,
+    /// Segments of a list.
+    Segment,
+    /// Triangles of a list, which hide what is behind them.
+    Cap,
+}
+
 /// Everything a pipeline depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PipelineKey {
@@ -100,6 +117,20 @@ pub enum PipelineKey {
     },
     /// Draws depth as a light sees it.
     Map,
+    /// Draws over the picture.
+    Flat {
+        /// What.
+        kind: FlatKind,
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Draws the sides of shadow volumes for the eye.
+    ShownVolume {
+        /// This part.
+        part: VolumePart,
+        /// Samples a pixel.
+        samples: u32,
+    },
     /// Draws the gradient.
     Background {
         /// Samples a pixel.

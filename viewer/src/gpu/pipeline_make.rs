@@ -134,11 +134,11 @@ pub fn surface(
                 bias: wgpu::DepthBiasState::default(),
             }),
             multisample: multisample(samples),
-            fragment: (stage != Stage::Depth).then_some(wgpu::FragmentState {
+            fragment: (stage != Stage::Depth || shader.is_cut).then_some(wgpu::FragmentState {
                 module,
                 entry_point: Some("shade"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &targets,
+                targets: if stage == Stage::Depth { &[] } else { &targets },
             }),
             multiview_mask: None,
             cache: None,
@@ -356,14 +356,14 @@ pub fn whole_image(
         })
 }
 
-fn multisample(count: u32) -> wgpu::MultisampleState {
+pub fn multisample(count: u32) -> wgpu::MultisampleState {
     wgpu::MultisampleState {
         count,
         ..wgpu::MultisampleState::default()
     }
 }
 
-fn pipeline_layout(gpu: &Gpu, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
+pub fn pipeline_layout(gpu: &Gpu, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
     gpu.device
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,

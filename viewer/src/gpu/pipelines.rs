@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 use super::binding::Layouts;
 use super::device::Gpu;
 use super::pipeline_key::{LAYER_BITS, PipelineKey};
+use super::pipeline_flat::{flat, shown_volume};
 use super::pipeline_make::{front_face, layer, map, surface, volume, whole_image};
 use super::targets::{COLOR_FORMAT, OUTPUT_FORMAT};
 use crate::shader::{self, ShaderKey};
@@ -31,6 +32,7 @@ enum ModuleKey {
     Surface(ShaderKey),
     Volume,
     Map,
+    Overlay,
     Background,
     Present(u32),
 }
@@ -54,7 +56,8 @@ impl Pipelines {
         let start = Instant::now();
         let module_key = match key {
             PipelineKey::Surface { shader, .. } => ModuleKey::Surface(shader),
-            PipelineKey::Volume { .. } => ModuleKey::Volume,
+            PipelineKey::Volume { .. } | PipelineKey::ShownVolume { .. } => ModuleKey::Volume,
+            PipelineKey::Flat { .. } => ModuleKey::Overlay,
             PipelineKey::Map => ModuleKey::Map,
             // Any triangle over the whole image will do.
             PipelineKey::EndLayer { .. }
@@ -92,6 +95,10 @@ impl Pipelines {
                 volume(gpu, layouts, module, part, (is_unclipped, mask, samples))
             }
             PipelineKey::Map => map(gpu, layouts, module),
+            PipelineKey::Flat { kind, samples } => flat(gpu, layouts, module, kind, samples),
+            PipelineKey::ShownVolume { part, samples } => {
+                shown_volume(gpu, layouts, module, part, samples)
+            }
             PipelineKey::EndLayer { samples } => {
                 layer(gpu, module, wgpu::CompareFunction::NotEqual, 0xff, samples)
             }
@@ -131,6 +138,7 @@ fn module(gpu: &Gpu, key: ModuleKey) -> wgpu::ShaderModule {
         ModuleKey::Surface(shader) => shader::emit(&shader),
         ModuleKey::Volume => format!("{}{}", shader::TYPES, shader::VOLUME),
         ModuleKey::Map => format!("{}{}", shader::TYPES, shader::MAP),
+        ModuleKey::Overlay => format!("{}{}", shader::TYPES, shader::OVERLAY),
         ModuleKey::Background => shader::BACKGROUND.to_owned(),
         ModuleKey::Present(samples) => shader::emit_present(samples),
     };

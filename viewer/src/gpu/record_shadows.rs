@@ -172,6 +172,42 @@ impl Recorder<'_> {
         report
     }
 
+    /// Draws the volumes of a light for the eye, as they were counted.
+    pub(super) fn show_volumes(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pass: &Pass,
+        light: u32,
+    ) {
+        let Some(volumes) = self.renderer.volumes.of(light) else {
+            return;
+        };
+        let load = wgpu::LoadOp::Load;
+        let store = wgpu::StoreOp::Store;
+        let depth = Some(wgpu::Operations { load, store });
+        let stencil = Some(wgpu::Operations {
+            load: wgpu::LoadOp::Load,
+            store,
+        });
+        let mut render_pass = self.begin(encoder, "shown volumes", true, depth, stencil, light);
+        render_pass.set_bind_group(2, &volumes.group, &[]);
+        for layer in 0..volumes.layer_count() {
+            let ranges = volumes.ranges(layer, &pass.volumes);
+            for part in volume_parts(pass, self.plan, self.view, false) {
+                let samples = self.targets.samples;
+                let key = PipelineKey::ShownVolume { part, samples };
+                let Some(pipeline) = self.renderer.pipelines.get(&key) else {
+                    continue;
+                };
+                render_pass.set_pipeline(pipeline);
+                let (list, corners) = part_ranges(&ranges, part);
+                for range in list {
+                    render_pass.draw(range.start * corners..range.end * corners, 0..1);
+                }
+            }
+        }
+    }
+
     /// What the stencil counts from: zero, or for a parallel projection the number of volumes that
     /// hold the point at infinity from where it looks.
     fn start_of_layer(&self, volumes: &LightVolumes, layer: usize, pass: &Pass) -> u32 {

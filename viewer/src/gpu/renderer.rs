@@ -14,6 +14,7 @@ use super::compute::{ComputedVolumes, Extractor};
 use super::device::{Gpu, GpuError};
 use super::frame_data::{self, FrameData};
 use super::geometry::Geometry;
+use super::overlay::{self, OverlayBuffers};
 use super::pipeline_key::{PipelineKey, VolumePart};
 use super::pipelines::{PipelineCounts, Pipelines};
 use super::rays::{Hierarchy, Rays};
@@ -24,7 +25,7 @@ use super::shadow_map::ShadowMap;
 use super::targets::Targets;
 use super::textures::Textures;
 use super::volumes::VolumeCache;
-use crate::content::{Content, LightShape, WorldLight};
+use crate::content::{Content, Edits, LightShape, WorldLight};
 use crate::frame::{self, Extraction, PassKind, Plan, Settings, Shadows, VolumeMethod};
 use crate::texture::Images;
 use crate::view::{DepthRange, Region, View};
@@ -83,6 +84,7 @@ pub struct Renderer {
     pub(super) rays: Option<Rays>,
     /// The stencil of one sample a pixel, to read.
     pub(super) stencil: Option<wgpu::BindGroup>,
+    pub(super) overlay: OverlayBuffers,
     scene: Arc<Scene>,
     /// Time taken to upload the scene.
     pub upload_time: Duration,
@@ -129,6 +131,7 @@ impl Renderer {
             maps: FxHashMap::default(),
             rays: None,
             stencil: None,
+            overlay: OverlayBuffers::default(),
             scene,
             upload_time: start.elapsed(),
         })
@@ -137,6 +140,24 @@ impl Renderer {
     /// The scene as it is drawn.
     pub fn content(&self) -> &Content {
         &self.content
+    }
+
+    /// Shows the scene as a user wants it from the next frame on.
+    pub fn apply(&mut self, edits: &Edits) {
+        self.content.apply(&self.scene, edits);
+        // All that was made of the casters, which may be others now.
+        self.casters = None;
+        self.volumes = VolumeCache::default();
+        self.computed.clear();
+        self.rays = None;
+    }
+
+    /// Shows textures from the next frame on: those that `images` has.
+    pub fn set_images(&mut self, images: &Images, edits: &Edits) {
+        self.content = Content::new(&self.scene, images);
+        self.textures =
+            Textures::upload(&self.gpu, &self.layouts, &self.scene, &self.content, images);
+        self.apply(edits);
     }
 
     /// Bytes on the device: meshes, textures, casters, shadows of lights, images of the frame.
@@ -176,7 +197,8 @@ impl Renderer {
     ) -> Result<(Plan, FrameReport), GpuError> {
         let mut report = FrameReport::default();
         let start = Instant::now();
-        let boxes: Vec<_> = self.content.objects.iter().map(|o| o.bounds).collect();
+        let shown = self.content.objects.iter().filter(|o| !o.is_hidden);
+        let boxes: Vec<_> = shown.map(|o| o.bounds).collect();
         let range = DepthRange::of(view, region.aspect, &boxes);
         let plan = frame::plan(&self.content, view, region, range.near, settings);
         report.plan = start.elapsed();
@@ -185,6 +207,7 @@ impl Renderer {
         let (made, kept) = (self.volumes.made, self.volumes.kept);
         self.fit_targets(width, height, settings.samples);
         self.prepare_shadows(&plan, view, settings);
+        self.overlay.prepare(&self.gpu, &settings.overlay);
         report.shadows = start.elapsed();
         report.volumes_made = self.volumes.made - made;
         report.volumes_kept = self.volumes.kept - kept;
@@ -201,6 +224,7 @@ impl Renderer {
             view.clip_from_view(region.aspect, range),
             region,
             self.content.bounds.center(),
+            settings.section,
         );
         self.frame_data.write(
             (&self.gpu, &self.layouts),
@@ -222,6 +246,11 @@ impl Renderer {
         report.draw = start.elapsed();
         self.gpu.check()?;
         Ok((plan, report))
+    }
+
+    /// The image of the last frame, on the device.
+    pub fn picture(&self) -> Option<&wgpu::TextureView> {
+        self.targets.as_ref().map(|targets| &targets.output_view)
     }
 
     /// The image of the last frame: RGBA, rows from top to bottom.
@@ -378,6 +407,7 @@ impl Renderer {
                 keys.push(PipelineKey::BeginLayer { samples });
             }
         }
+        keys.extend(overlay::keys(plan, view, settings, &self.gpu));
         for key in keys {
             self.pipelines.prepare(&self.gpu, &self.layouts, key);
         }
@@ -422,6 +452,7 @@ impl Renderer {
             for pass in &plan.passes {
                 report.passes.push(recorder.pass(&mut encoder, pass));
             }
+            recorder.overlay(&mut encoder);
             recorder.present(&mut encoder);
         }
         encoder.finish()

@@ -13,6 +13,9 @@ pub const TYPES: &str = include_str!("wgsl/types.wgsl");
 /// Shadow volumes; stands behind [`TYPES`].
 pub const VOLUME: &str = include_str!("wgsl/volume.wgsl");
 
+/// What is drawn over the picture; stands behind [`TYPES`].
+pub const OVERLAY: &str = include_str!("wgsl/overlay.wgsl");
+
 /// Depth as a light sees it; stands behind [`TYPES`].
 pub const MAP: &str = include_str!("wgsl/map.wgsl");
 /// Shadow volumes by compute; stands alone.
@@ -30,6 +33,8 @@ pub fn emit(key: &ShaderKey) -> String {
     }
     if key.shade != Shade::Nothing {
         shade(&mut text, key);
+    } else if key.is_cut {
+        text.push_str(CUT_ALONE);
     }
     text
 }
@@ -64,6 +69,16 @@ pub fn emit_rays(samples: u32) -> String {
 /// Where the four samples of a pixel are: the standard pattern, which all interfaces share.
 const STANDARD_PLACES: &str = "(array(vec2f(0.375, 0.125), vec2f(0.875, 0.375), \
                                vec2f(0.125, 0.625), vec2f(0.625, 0.875))[sample])";
+
+/// Of what has no colours, where a section plane cuts it.
+const CUT_ALONE: &str = "
+@fragment
+fn shade(in: Varying) {
+    if dot(frame.section.xyz, in.rel) + frame.section.w > 0.0 {
+        discard;
+    }
+}
+";
 
 fn bindings(text: &mut String, key: &ShaderKey) {
     if key.texture.is_some() {
@@ -123,7 +138,13 @@ fn shade(text: &mut String, key: &ShaderKey) {
     if shadow == ShadowLookup::Mask {
         text.push_str(", @builtin(sample_index) sample: u32");
     }
-    text.push_str(") -> @location(0) vec4f {\n    let s = surfaces[in.ids.x];\n");
+    text.push_str(") -> @location(0) vec4f {\n");
+    if key.is_cut {
+        text.push_str(
+            "    if dot(frame.section.xyz, in.rel) + frame.section.w > 0.0 {\n        discard;\n    }\n",
+        );
+    }
+    text.push_str("    let s = surfaces[in.ids.x];\n");
     text.push_str(if key.has_colors {
         "    let base = in.color;\n"
     } else {

@@ -7,7 +7,9 @@ use crate::content::Primitive;
 
 /// What goes from the vertex stage to the fragment stage, and the vertex stage, `place`.
 pub fn place(text: &mut String, key: &ShaderKey) {
-    if key.shade == Shade::Nothing {
+    if key.shade == Shade::Nothing && key.is_cut {
+        text.push_str(PLACE_CUT);
+    } else if key.shade == Shade::Nothing {
         text.push_str(PLACE_ALONE);
     } else {
         varyings(text, key);
@@ -22,6 +24,13 @@ pub fn place(text: &mut String, key: &ShaderKey) {
 const PLACE_ALONE: &str = "
 struct Varying {
     @builtin(position) @invariant clip: vec4f,
+}
+";
+
+const PLACE_CUT: &str = "
+struct Varying {
+    @builtin(position) @invariant clip: vec4f,
+    @location(0) rel: vec3f,
 }
 ";
 
@@ -91,6 +100,15 @@ fn varyings(text: &mut String, key: &ShaderKey) {
     text.push_str("}\n");
 }
 
+/// The end of a vertex stage without colours.
+fn alone(key: &ShaderKey) -> &'static str {
+    if key.is_cut {
+        "    out.rel = rel;\n    return out;\n}\n"
+    } else {
+        "    return out;\n}\n"
+    }
+}
+
 fn place_triangles(text: &mut String, key: &ShaderKey) {
     text.push_str("\n@vertex\nfn place(\n    @builtin(instance_index) instance: u32,\n    @location(0) position: vec3f,\n");
     if key.has_normals() {
@@ -110,7 +128,7 @@ fn place_triangles(text: &mut String, key: &ShaderKey) {
 ",
     );
     if key.shade == Shade::Nothing {
-        text.push_str("    return out;\n}\n");
+        text.push_str(alone(key));
         return;
     }
     text.push_str("    out.rel = rel;\n    out.ids = instances[instance].ids.xyz;\n");
@@ -138,7 +156,7 @@ fn place_strokes(text: &mut String, key: &ShaderKey, body: &str) {
 ",
     );
     if key.shade == Shade::Nothing {
-        text.push_str("    return out;\n}\n");
+        text.push_str(alone(key));
         return;
     }
     text.push_str("    out.rel = rel;\n    out.ids = instances[instance].ids.xyz;\n");

@@ -122,6 +122,8 @@ pub struct ShaderKey {
     pub texture: Option<TextureUse>,
     /// The fog.
     pub fog: Option<FogUse>,
+    /// A section plane cuts it.
+    pub is_cut: bool,
 }
 
 impl ShaderKey {
@@ -138,6 +140,7 @@ impl ShaderKey {
                 has_colors: false,
                 texture: None,
                 fog: None,
+                is_cut: false,
             };
         }
         let blends = contribution == Contribution::All;
@@ -173,7 +176,13 @@ impl ShaderKey {
                 ..texture
             }),
             fog: look.fog,
+            is_cut: false,
         }
+    }
+
+    /// The same where a section plane cuts.
+    pub fn cut(self, is_cut: bool) -> Self {
+        Self { is_cut, ..self }
     }
 
     /// Whether it draws all of a surface but the further lights: what is added once is added here.
@@ -195,7 +204,7 @@ impl ShaderKey {
         self.shade == Shade::Lit
     }
 
-    /// Every key that [`ShaderKey::new`] can give.
+    /// Every key that [`ShaderKey::new`] can give, and those cut that have neither texture nor fog.
     pub fn reachable() -> Vec<Self> {
         let mut keys = std::collections::BTreeSet::new();
         for look in looks() {
@@ -205,7 +214,12 @@ impl ShaderKey {
                     continue;
                 }
                 for is_parallel in BOTH {
-                    keys.insert(Self::new(&look, contribution, is_parallel));
+                    let key = Self::new(&look, contribution, is_parallel);
+                    keys.insert(key);
+                    // Cutting is the same whatever the colours.
+                    if look.texture.is_none() && look.fog.is_none() {
+                        keys.insert(key.cut(true));
+                    }
                 }
             }
         }

@@ -37,6 +37,8 @@ layouts! {
         rel_from_clip: [[f32; 4]; 4],
         /// x, y, width, height of the part of the image that is drawn.
         region: [u32; 4],
+        /// What lies before this plane is cut away; zero: nothing.
+        section: [f32; 4],
     }
     /// An object's frame.
     Instance {

@@ -38,24 +38,61 @@ const LARGEST: f64 = 1e100;
 /// more than 2^-53 of it.
 const POINT_SHARE: f64 = 1.0 / (1_u64 << 40) as f64;
 
+impl Up {
+    /// The vertical, upwards.
+    #[must_use]
+    pub fn axis(self) -> DVec3 {
+        match self {
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+        }
+    }
+}
+
 impl View {
     /// A perspective view that shows the whole of `bounds` in an image of this aspect ratio, as
     /// large as Inventor's default angle allows; `aspect` is positive and finite. An empty box is taken as a cube of side 2 around the
     /// origin, a point as one around the point. Finite for any box.
     #[must_use]
     pub fn of_whole(bounds: &Aabb, up: Up, aspect: f64) -> Self {
+        let lens = Lens::Perspective {
+            tan_half_height: TAN_HALF_HEIGHT,
+        };
+        Self::around(bounds, three_quarter(up), lens, aspect).0
+    }
+
+    /// The same from a direction and with a lens of the caller's, of which a parallel one is made
+    /// as wide as it must be; and the depth of the box's middle, which is positive.
+    #[must_use]
+    pub fn around(bounds: &Aabb, orientation: DQuat, lens: Lens, aspect: f64) -> (Self, f64) {
         let bounds = presentable(bounds);
-        let orientation = three_quarter(up);
         let to_view = orientation.conjugate();
         let corners = bounds.corners().map(|p| to_view * (p - bounds.center()));
-        let tan = DVec2::new(TAN_HALF_HEIGHT * aspect, TAN_HALF_HEIGHT);
-        Self {
-            eye: bounds.center() + orientation * eye_around(&corners, tan * FILL),
+        let (in_view, lens) = match lens {
+            Lens::Perspective { tan_half_height } => {
+                let tan = DVec2::new(tan_half_height * aspect, tan_half_height);
+                (eye_around(&corners, tan * FILL), lens)
+            }
+            Lens::Orthographic { .. } => {
+                let reach = corners
+                    .iter()
+                    .fold(DVec3::ZERO, |reach, p| reach.max(p.abs()));
+                let half_height = reach.y.max(reach.x / aspect) / FILL;
+                // A scene seen edge on has no height.
+                let half_height = half_height.max(reach.z * f64::EPSILON);
+                (
+                    DVec3::Z * (2.0 * reach.z + half_height),
+                    Lens::Orthographic { half_height },
+                )
+            }
+        };
+        let eye = bounds.center() + orientation * in_view;
+        let view = Self {
+            eye,
             orientation,
-            lens: Lens::Perspective {
-                tan_half_height: TAN_HALF_HEIGHT,
-            },
-        }
+            lens,
+        };
+        (view, in_view.z)
     }
 }
 
@@ -80,7 +117,8 @@ fn presentable(bounds: &Aabb) -> Aabb {
     }
 }
 
-fn three_quarter(up: Up) -> DQuat {
+/// From the front, the right and above.
+pub(crate) fn three_quarter(up: Up) -> DQuat {
     let (sin, cos) = AZIMUTH_DEG.to_radians().sin_cos();
     let (rise, run) = ELEVATION_DEG.to_radians().sin_cos();
     let forward_z_up = DVec3::new(-sin * run, cos * run, -rise);

@@ -13,6 +13,8 @@ struct Frame {
     rel_from_clip: mat4x4f,
     // x, y, width, height of the part of the image that is drawn.
     region: vec4u,
+    // What lies before this plane, in rel, is cut away; zero: nothing.
+    section: vec4f,
 }
 
 struct Instance {

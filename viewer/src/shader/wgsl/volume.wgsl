@@ -69,6 +69,12 @@ fn cap_rel(index: u32) -> vec3f {
     return rel_of(entry.y, positions[vertex].xyz);
 }
 
+// For the eye: sides as they are counted.
+@fragment
+fn shown() -> @location(0) vec4f {
+    return vec4f(0.15, 0.35, 1.0, 0.08);
+}
+
 @vertex
 fn light_cap(@builtin(vertex_index) index: u32) -> Out {
     return Out(clip_of(cap_rel(index)));

@@ -1,13 +1,14 @@
 //! The document of `--stats`. Its keys are promised in docs/STATS.md.
 
 use std::collections::HashSet;
+use std::path::Path;
 use std::time::Duration;
 
 use clap::ValueEnum;
 use scenegraph::scene::{Scene, Topology};
 use serde_json::{Map, Value, json};
 use viewer::content::{LightShape, WorldLight};
-use viewer::frame::{Pass, PassKind, Skip};
+use viewer::frame::{Headlight, Pass, PassKind, Skip};
 use viewer::gpu::{PassReport, Renderer};
 use viewer::view::Lens;
 
@@ -35,6 +36,8 @@ pub struct Times {
 pub struct Told<'a> {
     /// What was asked for.
     pub args: &'a Args,
+    /// The model's file.
+    pub model: &'a Path,
     /// `inventor` or `gltf`.
     pub format: &'a str,
     /// What was drawn.
@@ -52,7 +55,7 @@ impl Told<'_> {
     pub fn document(&self) -> Value {
         json!({
             "generator": concat!("ivview ", env!("CARGO_PKG_VERSION")),
-            "model": self.args.model.display().to_string(),
+            "model": self.model.display().to_string(),
             "format": self.format,
             "adapter": self.adapter(),
             "settings": self.settings(),
@@ -88,7 +91,7 @@ impl Told<'_> {
             "shadows": name_of(&self.args.shadows),
             "extraction": name_of(&self.args.extraction),
             "background_srgb": settings.background_srgb,
-            "has_headlight": settings.has_headlight,
+            "has_headlight": settings.headlight != Headlight::Off,
         })
     }
 

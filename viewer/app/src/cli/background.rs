@@ -5,7 +5,7 @@
 pub struct Background(pub [[f64; 3]; 2]);
 
 /// Lexolights' colours, by its names.
-const NAMED: [(&str, [f64; 3]); 7] = [
+pub const NAMED: [(&str, [f64; 3]); 7] = [
     ("black", [0.0; 3]),
     ("dark grey", [0.25; 3]),
     ("grey", [0.5; 3]),

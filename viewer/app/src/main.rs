@@ -1,9 +1,7 @@
 //! The command `ivview`: shows Inventor and glTF models.
 
-mod cli;
-
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::run()
+    app::cli::run()
 }

@@ -5,16 +5,18 @@ use std::path::{Path, PathBuf};
 use clap::{Parser, ValueEnum};
 use convert::command::access::PackedArgs;
 use viewer::compare::Tolerance;
-use viewer::frame::{Extraction, Settings, Shadows, VolumeMethod};
+use viewer::frame::{Extraction, Headlight, Settings, Shadows, VolumeMethod};
 use viewer::gpu::AdapterChoice;
 use viewer::view::framing::Up;
 
 use super::background::{self, Background};
 
-const USAGE: &str = "ivview [OPTIONS] <MODEL> --output <PNG>";
+const USAGE: &str = "ivview [OPTIONS] [MODEL]...";
 
 const EXAMPLES: &str = "\
 Examples:
+  ivview house.iv
+        in a window; `?` there lists the keys
   ivview house.iv -o house.png
         as the first camera of the model sees it, or else the whole model
   ivview house.glb -o house.png --size 1920x1080 --msaa 4 --background '#d0e0f0,white'
@@ -35,16 +37,17 @@ Exit codes:
 
 /// Shows Open Inventor and glTF models.
 ///
-/// Shadows are computed exactly, by shadow volumes, unless another way is asked for. This version
-/// draws into files; the window comes with a later one.
+/// Shadows are computed exactly, by shadow volumes, unless another way is asked for. Without
+/// --output the model is shown in a window.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ivview", version, override_usage = USAGE, after_help = EXAMPLES)]
 pub struct Args {
-    /// Inventor text (.iv, .wrl) or glTF (.glb, .gltf), told apart by content
+    /// Models: Inventor (.iv, .wrl, .ivz) or glTF (.glb, .gltf), told apart by content. The first is
+    /// shown; PageDown goes to the next
     #[arg(value_name = "MODEL")]
-    pub model: PathBuf,
+    pub models: Vec<PathBuf>,
 
-    /// The picture; its folder is made if need be
+    /// Draws into this picture, without a window; its folder is made if need be
     #[arg(short, long, value_name = "PNG", value_parser = png)]
     pub output: Option<PathBuf>,
 
@@ -130,6 +133,7 @@ pub struct Args {
     /// then depends on the computer
     #[arg(long)]
     pub system_fonts: bool,
+    /// How packed files are opened
     #[command(flatten)]
     pub packed: PackedArgs,
 
@@ -195,9 +199,18 @@ impl Args {
             shadows: self.shadows.with(self.extraction),
             samples: self.msaa,
             background_srgb: [top, bottom],
-            has_headlight: !self.no_headlight,
+            headlight: if self.no_headlight {
+                Headlight::Off
+            } else {
+                Headlight::WhenAlone
+            },
             ..Settings::default()
         }
+    }
+
+    /// Whether the user wants another background than black.
+    pub fn has_background(&self) -> bool {
+        self.background != Background([[0.0; 3]; 2])
     }
 
     /// The axis that the user wants up, if any.

@@ -2,12 +2,11 @@
 //!
 //! Exit codes: 0 done, 1 the picture differs from the reference, 2 something failed.
 
-mod args;
-mod background;
-mod camera;
-mod input;
-mod picture;
-mod screen;
+pub mod args;
+pub mod background;
+pub mod camera;
+pub mod picture;
+pub mod screen;
 mod stats;
 
 use std::path::Path;
@@ -18,7 +17,7 @@ use std::time::{Duration, Instant};
 use clap::Parser;
 use convert::command::access::Access;
 use convert::command::messages::{self, Style, error_line, image_left_out, number, seconds};
-use convert::command::{atomic, json, model};
+use convert::command::{atomic, json};
 use image::RgbaImage;
 use iv_parser::{Diagnostic, Severity};
 use viewer::frame::Plan;
@@ -26,9 +25,10 @@ use viewer::gpu::{FrameReport, Gpu, Renderer};
 use viewer::texture::Images;
 use viewer::view::{Region, View};
 
+use crate::input::{self, Input};
+use crate::window;
 use args::Args;
 use camera::Viewpoint;
-use input::Input;
 use picture::Verdict;
 use screen::Screen;
 
@@ -43,9 +43,7 @@ const FAILED: u8 = 2;
 /// software adapter is the memory of the machine.
 const MAX_PIXELS: u64 = 1 << 26;
 
-const NO_WINDOW: &str = "\
-without --output the model would be shown in a window, which comes with a later version; give \
---output PNG, and `ivview --help` says more";
+const ONE_MODEL: &str = "--output draws one model; give one";
 
 /// The whole command, with the arguments of the process.
 pub fn run() -> ExitCode {
@@ -54,8 +52,11 @@ pub fn run() -> ExitCode {
         is_quiet: args.quiet,
     };
     let code = match &args.output {
-        None => Err(messages::error(NO_WINDOW)),
-        Some(output) => show(&args, output, &screen),
+        None => window::run(&args, &screen).map(|()| DONE),
+        Some(output) => match args.models.as_slice() {
+            [model] => show(&args, model, output, &screen),
+            _ => Err(messages::error(ONE_MODEL)),
+        },
     };
     ExitCode::from(code.unwrap_or_else(|why| {
         screen.error(&why);
@@ -80,7 +81,7 @@ pub struct Shown {
 }
 
 /// Draws the model into a file; returns the exit code. Errors are whole lines.
-fn show(args: &Args, output: &Path, screen: &Screen) -> Result<u8, String> {
+fn show(args: &Args, model: &Path, output: &Path, screen: &Screen) -> Result<u8, String> {
     let start = Instant::now();
     let plain = |why: String| messages::error(&why);
     let reference = args.reference.as_deref().map(picture::read).transpose();
@@ -89,7 +90,7 @@ fn show(args: &Args, output: &Path, screen: &Screen) -> Result<u8, String> {
     let saved = saved.map_err(plain)?;
 
     let mut times = stats::Times::default();
-    let (input, images, diagnostics) = read(args, screen, &mut times)?;
+    let (input, images, diagnostics) = read(args, model, screen, &mut times)?;
     let viewpoint = match saved {
         Some(viewpoint) => viewpoint,
         None => {
@@ -121,6 +122,7 @@ fn show(args: &Args, output: &Path, screen: &Screen) -> Result<u8, String> {
     if let Some(path) = &args.stats {
         let told = stats::Told {
             args,
+            model,
             format,
             scene: &scene,
             renderer: &renderer,
@@ -136,24 +138,25 @@ fn show(args: &Args, output: &Path, screen: &Screen) -> Result<u8, String> {
 /// Reads the model and its images, and says what is wrong with them.
 fn read(
     args: &Args,
+    path: &Path,
     screen: &Screen,
     times: &mut stats::Times,
 ) -> Result<(Input, Images, Vec<Diagnostic>), String> {
     let mut diagnostics = Vec::new();
     let access = Access::new(&args.search, &args.packed);
-    let input = access.and_then(|access| input::read(args, &access, &mut diagnostics));
+    let input = access.and_then(|access| input::read(path, args, &access, &mut diagnostics));
     let input = input.map(|input| {
         times.read = input.read_time;
         times.resolve = input.resolve_time;
         let start = Instant::now();
-        let images = Images::load(&input.scene, &model::Images(&input.files));
+        let images = Images::load(&input.scene, &convert::command::model::Images(&input.files));
         times.textures = start.elapsed();
         let missing = images.problems.iter().cloned();
         diagnostics.extend(missing.map(|missing| image_left_out(missing, &input.scene)));
         if input.scene.instances.is_empty() {
             let message = "nothing in this model is drawn".to_owned();
             let hint = "the picture shows the background only";
-            diagnostics.push(input::warning(&args.model, "no-geometry", message, hint));
+            diagnostics.push(input::warning(path, "no-geometry", message, hint));
         }
         (input, images)
     });
@@ -161,11 +164,11 @@ fn read(
         is_quiet: args.quiet,
         see: String::new(),
     };
-    let remarks = messages::remarks(&args.model, &diagnostics, &style);
+    let remarks = messages::remarks(path, &diagnostics, &style);
     screen.error(&messages::printable(&remarks.join("\n")));
     match input {
         Ok((input, images)) => Ok((input, images, diagnostics)),
-        Err(why) => Err(error_line(&args.model.display().to_string(), &why)),
+        Err(why) => Err(error_line(&path.display().to_string(), &why)),
     }
 }
 

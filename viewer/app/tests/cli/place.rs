@@ -36,7 +36,7 @@ impl Place {
 
     pub fn file(self, name: &str, bytes: impl AsRef<[u8]>) -> Self {
         let path = self.path(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::create_dir_all(path.ancestors().nth(2).unwrap()).unwrap();
         fs::write(path, bytes).unwrap();
         self
     }
@@ -117,5 +117,8 @@ impl Place {
 }
 
 pub fn repository() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .ancestors()
+        .nth(2)
+        .unwrap()
 }

@@ -13,7 +13,7 @@ use scenegraph::ResolveOptions;
 use scenegraph::scene::Scene;
 use viewer::view::framing::Up;
 
-use super::args::Args;
+use crate::cli::args::Args;
 
 /// A model in memory.
 pub struct Input {
@@ -37,11 +37,11 @@ pub struct Input {
 ///
 /// Why there is nothing to draw, in words.
 pub fn read(
+    path: &Path,
     args: &Args,
     access: &Access,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Input, String> {
-    let path = args.model.as_path();
     let start = Instant::now();
     let mut opened = model::open(path, access)?;
     if is_gltf(&opened.bytes) {
