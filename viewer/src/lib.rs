@@ -7,6 +7,8 @@ pub mod compare;
 pub mod content;
 pub mod frame;
 pub mod gpu;
+pub mod hierarchy;
+pub mod pick;
 pub mod shader;
 pub mod texture;
 pub mod view;
