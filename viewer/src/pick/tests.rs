@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
-use scenegraph::scene::Scene;
+use scenegraph::scene::{Faces, Scene};
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 
 use super::*;
@@ -535,6 +535,40 @@ fn what_a_hit_says() {
         picker.pick(&backwards, |_| true, &PickOptions::default()),
         None
     );
+}
+
+#[test]
+fn no_ray_leaves_a_closed_sphere() {
+    // Towards corners and edges, where boxes and triangles end.
+    for (place, tolerance) in [("0 0 0", 1e-13), ("1e6 -2e6 3e6", 4e-9)] {
+        let mut scene = scene_of(&format!(
+            "Complexity {{ value 0.7 }} Translation {{ translation {place} }} Transform {{
+            rotation 1 2 3 0.777 scaleFactor -1.1 0.9 0.7 }} Sphere {{ }}"
+        ));
+        // Seen from the inside.
+        scene.materials[0].faces = Faces::BothTwoSidedLighting;
+        let mesh = &scene.meshes[0];
+        let world = scene.instances[0].placement.world_from_local;
+        let corners: Vec<DVec3> = (mesh.indices.iter())
+            .map(|&i| world.transform_point3(mesh.p_in_local(i)))
+            .collect();
+        let (mut picker, _) = picker_of(scene);
+        for eye in [v(0.0, 0.0, 0.0), v(0.1, 0.2, 0.3)] {
+            let eye = world.transform_point3(eye);
+            for abc in corners.chunks_exact(3) {
+                for target in [abc[0], abc[0].midpoint(abc[1]), abc[0].lerp(abc[2], 0.9)] {
+                    let aim = Aim::along(eye, target - eye).unwrap();
+                    let hit = picker.pick(&aim, |_| true, &PickOptions::default());
+                    let distance = hit.map_or(f64::NAN, |hit| hit.distance);
+                    let expected = (target - eye).length();
+                    assert!(
+                        (distance - expected).abs() < tolerance,
+                        "{target}: {distance}"
+                    );
+                }
+            }
+        }
+    }
 }
 
 #[test]
