@@ -91,7 +91,7 @@ fn compare(scene: Scene, camera: &RefCamera, seed: u64) -> Outcome {
         let [x, y] = SIZE.map(|n| random.below(n));
         let at = (y * SIZE[0] + x) as usize;
         let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-        let aim = picker.aim(&view, &region, pixel).unwrap();
+        let aim = picker.aim(&view, &region, pixel).expect("in the image");
         let hit = picker.pick(&aim, is_shown, &PickOptions::default());
         let (Some(hit), Some(instance)) = (hit, image.object[at]) else {
             assert_eq!(hit.map(|hit| hit.instance), image.object[at], "{x} {y}");
@@ -152,9 +152,9 @@ fn pavilion() -> Scene {
     let sample = samples::ALL
         .iter()
         .find(|sample| sample.path.ends_with("pavilion.iv"))
-        .unwrap();
-    let bytes = std::fs::read(samples::path_of(sample)).unwrap();
-    scene_of(&String::from_utf8(bytes).unwrap())
+        .expect("in the list");
+    let text = std::fs::read_to_string(samples::path_of(sample)).expect("a text");
+    scene_of(&text)
 }
 
 /// Boxes, balls and cones in a heap: used many times, through each other, mirrored, sheared, culled

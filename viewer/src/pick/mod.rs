@@ -2,7 +2,7 @@
 //!
 //! A [`Picker`] keeps a hierarchy of boxes over the objects, and one over each mesh that a ray has
 //! come near. An [`Aim`] is a ray with all that the image adds to it: how wide a pixel is, where the
-//! view begins, how much nearer lines are drawn. A [`Hit`] says what is there, and [`snap`] which
+//! view begins, how much nearer lines are drawn. A [`Hit`] says what is there, and [`snap()`] which
 //! corner or edge of it was meant.
 //!
 //! It knows no lights, no textures and no caps of a section: glass is hit like all else, whatever
