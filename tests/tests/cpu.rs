@@ -16,6 +16,7 @@ mod cpu {
     mod nurbs;
     mod outputs;
     mod page;
+    mod picking;
     mod precision;
     mod random_models;
     mod reference;

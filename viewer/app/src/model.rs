@@ -4,15 +4,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use glam::DVec4;
+
 use convert::command::model::Files;
 use iv_parser::Diagnostic;
 use scenegraph::scene::{Scene, TextureSource};
 use viewer::content::Edits;
 use viewer::gpu::Renderer;
+use viewer::pick::{Hit, PickOptions, Picker};
 use viewer::texture::Images;
 use viewer::view::framing::Up;
+use viewer::view::{Region, View};
 
 use crate::outline::Outline;
+
+/// How far beside a line or a point a click may be.
+const STROKE_TOLERANCE_PX: f64 = 4.0;
 
 /// What it took until the first picture.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,6 +62,8 @@ pub struct Model {
     pub edits: Edits,
     /// Counts changes of `edits` and of images: a picture belongs to one.
     pub revision: u64,
+    /// What finds things below the mouse, and the revision it knows.
+    pub picker: Option<(Picker, u64)>,
     /// The files it was read from, itself first.
     pub files: Vec<PathBuf>,
     /// Opens the files it refers to, once it is all read.
@@ -84,6 +93,7 @@ impl Model {
             times,
             edits: Edits::default(),
             revision: 0,
+            picker: None,
             loader: None,
         }
     }
@@ -97,6 +107,37 @@ impl Model {
             self.renderer.apply(&self.edits);
             self.revision += 1;
         }
+    }
+
+    /// What is seen at a place of the picture, in pixels from its top left corner. What lies before
+    /// `section` is cut away.
+    pub fn pick(
+        &mut self,
+        view: &View,
+        size: (u32, u32),
+        place: [f64; 2],
+        section: Option<DVec4>,
+    ) -> Option<Hit> {
+        let content = self.renderer.content();
+        let (picker, known) = self.picker.get_or_insert_with(|| {
+            let picker = Picker::new(Arc::clone(&self.scene), content);
+            (picker, self.revision)
+        });
+        if *known != self.revision {
+            picker.update(content);
+            *known = self.revision;
+        }
+        let region = Region::whole(size.0, size.1);
+        let aim = picker.aim(view, &region, place)?;
+        let options = PickOptions {
+            tolerance_px: STROKE_TOLERANCE_PX,
+            cut: section.map(|plane| -plane),
+        };
+        picker.pick(
+            &aim,
+            |object| !content.objects[object as usize].is_hidden,
+            &options,
+        )
     }
 
     /// Shows its images.

@@ -28,7 +28,7 @@ pub fn positions(mesh: &Mesh) -> Cow<'_, [[f32; 3]]> {
 }
 
 /// The coordinates that all vertices share; zero on the other axes.
-fn shared(mesh: &Mesh) -> [f32; 3] {
+pub fn shared(mesh: &Mesh) -> [f32; 3] {
     std::array::from_fn(|axis| {
         let first = mesh.positions.first().map_or(0.0, |p| p[axis]);
         let is_shared = mesh.positions.iter().all(|p| p[axis] == first);

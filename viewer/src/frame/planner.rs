@@ -222,9 +222,7 @@ impl Planner<'_> {
                 counts.add(SkipReason::OutOfView);
                 continue;
             }
-            let key = |light| {
-                self.key(&object.look, Contribution::First(light))
-            };
+            let key = |light| self.key(&object.look, Contribution::First(light));
             let light = light
                 .filter(|&light| self.unlit_reason(light, index).is_none())
                 .map(|light| LightKey::of(&self.lights[light as usize], shadow));

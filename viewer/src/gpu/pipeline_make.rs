@@ -363,7 +363,10 @@ pub fn multisample(count: u32) -> wgpu::MultisampleState {
     }
 }
 
-pub fn pipeline_layout(gpu: &Gpu, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
+pub fn pipeline_layout(
+    gpu: &Gpu,
+    groups: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::PipelineLayout {
     gpu.device
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,

@@ -8,8 +8,8 @@ use rustc_hash::FxHashMap;
 
 use super::binding::Layouts;
 use super::device::Gpu;
-use super::pipeline_key::{LAYER_BITS, PipelineKey};
 use super::pipeline_flat::{flat, shown_volume};
+use super::pipeline_key::{LAYER_BITS, PipelineKey};
 use super::pipeline_make::{front_face, layer, map, surface, volume, whole_image};
 use super::targets::{COLOR_FORMAT, OUTPUT_FORMAT};
 use crate::shader::{self, ShaderKey};

@@ -9,40 +9,23 @@ use super::device::Gpu;
 use super::targets::Targets;
 use crate::content::Content;
 use crate::content::positions::positions;
+use crate::hierarchy::{self, Bounds};
 use crate::shader;
-
-/// A box of the hierarchy, as `wgsl/rays.wgsl` reads it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Node {
-    low: [f32; 3],
-    /// Of an inner node the second child, of a leaf the first triangle.
-    first: u32,
-    high: [f32; 3],
-    /// Triangles of a leaf; 0 for an inner node.
-    count: u32,
-}
 
 /// Triangles in a leaf at most.
 const LEAF: usize = 4;
 
 /// Boxes and triangles of all casters, around the middle of the scene.
 pub struct Hierarchy {
-    nodes: Vec<Node>,
+    nodes: Vec<hierarchy::Node>,
     corners: Vec<[f32; 4]>,
 }
 
-#[derive(Clone, Copy)]
-struct Triangle {
-    corners: [Vec3; 3],
-    low: Vec3,
-    high: Vec3,
-}
-
 impl Hierarchy {
-    /// Over the casters of `content`, relative to `origin`.
+    /// Over the casters of `content`, relative to `origin`. The median splits keep its depth below
+    /// the shader's stack of 64.
     pub fn new(scene: &Scene, content: &Content, origin: DVec3) -> Self {
-        let mut triangles = Vec::new();
+        let mut triangles: Vec<[Vec3; 3]> = Vec::new();
         for object in content.objects.iter().filter(|object| object.is_caster()) {
             let mesh = &scene.meshes[object.mesh.index()];
             let places = positions(mesh);
@@ -52,72 +35,28 @@ impl Hierarchy {
                 let p = Vec3::from_array(places[i as usize]).as_dvec3();
                 rel.transform_point3(p).as_vec3()
             };
-            for index in mesh.indices.chunks_exact(3) {
-                let corners = [at(index[0]), at(index[1]), at(index[2])];
-                triangles.push(Triangle {
-                    corners,
-                    low: corners[0].min(corners[1]).min(corners[2]),
-                    high: corners[0].max(corners[1]).max(corners[2]),
-                });
-            }
+            let corners = mesh.indices.chunks_exact(3);
+            triangles.extend(corners.map(|of| [at(of[0]), at(of[1]), at(of[2])]));
         }
-        let nodes = build(&mut triangles);
-        let corners = triangles
+        let boxes = triangles.iter().map(|corners| {
+            let mut bounds = Bounds::EMPTY;
+            corners.iter().for_each(|&p| bounds.add(p));
+            bounds
+        });
+        let boxes = hierarchy::Hierarchy::new(boxes, LEAF);
+        let corners = boxes
+            .order
             .iter()
-            .flat_map(|t| {
-                let [a, b, c] = t.corners;
+            .flat_map(|&i| {
+                let [a, b, c] = triangles[i as usize];
                 [a, b - a, c - a].map(|v| v.extend(0.0).to_array())
             })
             .collect();
-        Self { nodes, corners }
+        Self {
+            nodes: boxes.nodes,
+            corners,
+        }
     }
-}
-
-/// Halves at the median of the longest axis of the middles: depth is the logarithm of the number,
-/// so the shader's stack of 64 never overflows.
-fn build(triangles: &mut [Triangle]) -> Vec<Node> {
-    let mut nodes = Vec::new();
-    // A range to build, and the node whose second child it is.
-    let mut open = vec![(0..triangles.len(), None::<usize>)];
-    while let Some((range, parent)) = open.pop() {
-        let index = nodes.len();
-        if let Some(parent) = parent {
-            let parent: &mut Node = &mut nodes[parent];
-            parent.first = index as u32;
-        }
-        let here = &mut triangles[range.clone()];
-        let mut low = Vec3::INFINITY;
-        let mut high = Vec3::NEG_INFINITY;
-        let mut low_middle = Vec3::INFINITY;
-        let mut high_middle = Vec3::NEG_INFINITY;
-        for triangle in here.iter() {
-            low = low.min(triangle.low);
-            high = high.max(triangle.high);
-            let middle = triangle.low + triangle.high;
-            low_middle = low_middle.min(middle);
-            high_middle = high_middle.max(middle);
-        }
-        let is_leaf = here.len() <= LEAF;
-        nodes.push(Node {
-            low: low.to_array(),
-            first: range.start as u32,
-            high: high.to_array(),
-            count: if is_leaf { here.len() as u32 } else { 0 },
-        });
-        if is_leaf {
-            continue;
-        }
-        let axis = (high_middle - low_middle).max_position();
-        let half = here.len() / 2;
-        here.select_nth_unstable_by(half, |a, b| {
-            (a.low[axis] + a.high[axis]).total_cmp(&(b.low[axis] + b.high[axis]))
-        });
-        let middle = range.start + half;
-        // The first child is the next node, so it is taken from the stack first.
-        open.push((middle..range.end, Some(index)));
-        open.push((range.start..middle, None));
-    }
-    nodes
 }
 
 /// What casting rays needs on the device.

@@ -173,12 +173,7 @@ impl Recorder<'_> {
     }
 
     /// Draws the volumes of a light for the eye, as they were counted.
-    pub(super) fn show_volumes(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        pass: &Pass,
-        light: u32,
-    ) {
+    pub(super) fn show_volumes(&self, encoder: &mut wgpu::CommandEncoder, pass: &Pass, light: u32) {
         let Some(volumes) = self.renderer.volumes.of(light) else {
             return;
         };

@@ -82,15 +82,22 @@ fn cap_color(diffuse_srgb: [f64; 3]) -> [u8; 4] {
 /// The closed borders of the cut, in the world.
 fn borders(mesh: &CasterMesh, place: impl Fn(DVec3) -> DVec3, plane: DVec4) -> Vec<Vec<DVec3>> {
     let places: Vec<DVec3> = mesh.positions.iter().map(|p| place(as_f64(p))).collect();
-    let distances: Vec<f64> = places.iter().map(|p| plane.xyz().dot(*p) + plane.w).collect();
+    let distances: Vec<f64> = places
+        .iter()
+        .map(|p| plane.xyz().dot(*p) + plane.w)
+        .collect();
     let is_front = |i: u32| distances[i as usize] > 0.0;
     // From the edge where a border comes in to those where it goes on.
     let mut next: FxHashMap<EdgeName, Vec<EdgeName>> = FxHashMap::default();
     let mut starts = Vec::new();
     for &[a, b, c, _] in &mesh.triangles {
         let crossings = [(a, b), (b, c), (c, a)];
-        let out = crossings.iter().find(|(a, b)| is_front(*a) && !is_front(*b));
-        let back = crossings.iter().find(|(a, b)| !is_front(*a) && is_front(*b));
+        let out = crossings
+            .iter()
+            .find(|(a, b)| is_front(*a) && !is_front(*b));
+        let back = crossings
+            .iter()
+            .find(|(a, b)| !is_front(*a) && is_front(*b));
         if let (Some(&out), Some(&back)) = (out, back) {
             let (from, to) = (name(out), name(back));
             next.entry(from).or_default().push(to);

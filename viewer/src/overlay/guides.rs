@@ -35,7 +35,11 @@ pub fn grid(content: &Content, up: Up) -> (Vec<Segment>, f64) {
         Up::Y => (DVec3::X, DVec3::Z, DVec3::Y),
     };
     let size = bounds.size().dot(across).max(bounds.size().dot(along));
-    let size = if size > 0.0 { size } else { diagonal(bounds).max(1e-9) };
+    let size = if size > 0.0 {
+        size
+    } else {
+        diagonal(bounds).max(1e-9)
+    };
     let mut step = 10_f64.powf((size / MOST_LINES).log10().ceil());
     if !(step > 0.0 && step.is_finite()) {
         step = 1.0;

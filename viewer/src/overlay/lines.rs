@@ -120,7 +120,13 @@ pub fn silhouettes(scene: &Scene, content: &Content, meshes: &mut Meshes) -> Vec
             let Some(mesh) = meshes.of(scene, object) else {
                 continue;
             };
-            facing(mesh, in_mesh, object.is_mirrored, CastRule::BothSigns, &mut signs);
+            facing(
+                mesh,
+                in_mesh,
+                object.is_mirrored,
+                CastRule::BothSigns,
+                &mut signs,
+            );
             for edge in &mesh.edges {
                 let sides: i32 = refs(mesh, edge)
                     .iter()

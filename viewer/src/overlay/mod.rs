@@ -132,7 +132,9 @@ impl Meshes {
 
 /// The objects that are shown, with their indices.
 fn shown(content: &Content) -> impl Iterator<Item = (u32, &Object)> {
-    (0..).zip(&content.objects).filter(|(_, object)| !object.is_hidden)
+    (0..)
+        .zip(&content.objects)
+        .filter(|(_, object)| !object.is_hidden)
 }
 
 /// The first three of four coordinates.

@@ -204,6 +204,11 @@ impl App {
             self.canvas.moved = Some(Instant::now());
         }
         self.navigator = Some(navigator);
+        if let Some(at) = response.hover_pos()
+            && ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO)
+        {
+            self.canvas.below = self.p_below(at);
+        }
         self.click(response);
     }
 
@@ -229,7 +234,7 @@ impl App {
     }
 
     fn wheel(
-        &self,
+        &mut self,
         navigator: &mut Navigator,
         ui: &Ui,
         response: &Response,

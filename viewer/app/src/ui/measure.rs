@@ -75,7 +75,10 @@ impl App {
             ui.monospace(format!("Δ {:.6} {:.6} {:.6}", d.x, d.y, d.z));
         }
         ui.horizontal(|ui| {
-            ui.weak(format!("{} points; click to add", self.measure.points.len()));
+            ui.weak(format!(
+                "{} points; click to add",
+                self.measure.points.len()
+            ));
             if ui.button("Clear").clicked() {
                 self.measure.points.clear();
             }
@@ -102,7 +105,12 @@ mod tests {
         for from in [DVec3::ZERO, far] {
             let mut measure = Measure::default();
             assert_eq!(measure.results(), Measured::default());
-            let corners = [(0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (3.0, 4.0, 0.0), (0.0, 4.0, 0.0)];
+            let corners = [
+                (0.0, 0.0, 0.0),
+                (3.0, 0.0, 0.0),
+                (3.0, 4.0, 0.0),
+                (0.0, 4.0, 0.0),
+            ];
             for (x, y, z) in corners {
                 measure.points.push(from + DVec3::new(x, y, z));
             }
@@ -117,7 +125,10 @@ mod tests {
             points: vec![DVec3::ONE; 3],
         };
         let measured = same.results();
-        assert_eq!((measured.distance, measured.angle_deg, measured.area), (Some(0.0), None, Some(0.0)));
+        assert_eq!(
+            (measured.distance, measured.angle_deg, measured.area),
+            (Some(0.0), None, Some(0.0))
+        );
         assert_eq!(significant(1234.567_891), "1234.568");
         assert_eq!(significant(0.000_123_456_78), "0.0001234568");
     }

@@ -112,7 +112,10 @@ impl App {
     pub(super) fn settle_overlay(&mut self) {
         self.settings.section = self.section_plane();
         let selected = self.selected_instances();
-        let arm = self.navigator.as_ref().map_or(1.0, |n| n.half_height() * 0.02);
+        let arm = self
+            .navigator
+            .as_ref()
+            .map_or(1.0, |n| n.half_height() * 0.02);
         let Some(model) = &self.model else {
             return;
         };
@@ -120,7 +123,11 @@ impl App {
             over: self.over,
             revision: model.revision,
             points: self.measure.points.clone(),
-            arm: if self.measure.points.is_empty() { 0.0 } else { arm },
+            arm: if self.measure.points.is_empty() {
+                0.0
+            } else {
+                arm
+            },
         };
         if self.overlays.made_for.as_ref() != Some(&made_for) {
             let lists = &mut self.overlays;
@@ -205,7 +212,10 @@ impl App {
         });
         ui.add(Slider::new(&mut section.share, 0.0..=1.0).show_value(false));
         if let Some(plane) = plane {
-            ui.weak(format!("at {:.3}; shadows are those of the whole model", -plane.w));
+            ui.weak(format!(
+                "at {:.3}; shadows are those of the whole model",
+                -plane.w
+            ));
         }
     }
 
@@ -226,7 +236,10 @@ impl App {
             self.toggle_over(command);
         }
         if self.over.grid {
-            ui.weak(format!("A square of the grid is {} wide.", self.overlays.grid_step));
+            ui.weak(format!(
+                "A square of the grid is {} wide.",
+                self.overlays.grid_step
+            ));
         }
     }
 }

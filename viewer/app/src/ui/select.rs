@@ -5,6 +5,8 @@ use std::sync::Arc;
 use egui::{Pos2, Response};
 use geometry::bounds::Aabb;
 use glam::DVec3;
+use viewer::pick::{Hit, snap};
+use viewer::view::Region;
 
 use super::state::App;
 use crate::outline::{Item, Outline};
@@ -13,16 +15,21 @@ use crate::outline::{Item, Outline};
 /// the rows around it, from the outside in, and which of several it is.
 pub(super) type RowName = (Vec<String>, usize);
 
+/// Within so many pixels a corner or an edge is meant.
+const SNAP_PX: f64 = 8.0;
+
 impl App {
     /// Selects what was clicked, or goes there.
     pub(super) fn click(&mut self, response: &Response) {
         let at = response.interact_pointer_pos();
         if response.double_clicked() {
-            if let (Some(p), Some(navigator)) =
-                (at.and_then(|at| self.p_below(at)), &mut self.navigator)
-            {
+            let p = at.and_then(|at| self.p_below(at));
+            if let (Some(p), Some(navigator)) = (p, &mut self.navigator) {
                 navigator.seek(p);
             }
+        } else if response.clicked() && self.measure.is_active {
+            let p = at.and_then(|at| self.snapped(at));
+            self.measure.points.extend(p);
         } else if response.clicked() {
             let row = at.and_then(|at| self.row_below(at));
             self.select(row);
@@ -41,12 +48,39 @@ impl App {
         }
     }
 
-    fn row_below(&mut self, _at: Pos2) -> Option<usize> {
-        None
+    /// What is seen at a place of the screen.
+    pub fn hit_below(&mut self, at: Pos2) -> Option<Hit> {
+        let rect = self.canvas.rect?;
+        let part = (at - rect.min) / rect.size();
+        let (width, height) = self.canvas.size;
+        let place = [
+            f64::from(part.x) * f64::from(width),
+            f64::from(part.y) * f64::from(height),
+        ];
+        let view = self.navigator?.view;
+        let section = self.section_plane();
+        self.model
+            .as_mut()?
+            .pick(&view, (width, height), place, section)
     }
 
-    pub(super) fn p_below(&self, _at: Pos2) -> Option<DVec3> {
-        None
+    fn row_below(&mut self, at: Pos2) -> Option<usize> {
+        let hit = self.hit_below(at)?;
+        let outline = &self.model.as_ref()?.outline;
+        outline.row_of_instance.get(hit.instance as usize).copied()
+    }
+
+    pub(super) fn p_below(&mut self, at: Pos2) -> Option<DVec3> {
+        Some(self.hit_below(at)?.p_in_world)
+    }
+
+    /// The corner or edge that a click means, or else the place itself.
+    fn snapped(&mut self, at: Pos2) -> Option<DVec3> {
+        let hit = self.hit_below(at)?;
+        let view = self.navigator?.view;
+        let region = Region::whole(self.canvas.size.0, self.canvas.size.1);
+        let snapped = snap(&hit, SNAP_PX, &view, &region);
+        Some(snapped.map_or(hit.p_in_world, |snap| snap.p_in_world))
     }
 
     /// Around all that is shown.

@@ -229,9 +229,10 @@ impl Shell<'_> {
             .handle_platform_output(&open.window, output.platform_output.clone());
         let pixels_per_point = output.pixels_per_point;
         let primitives = self.ctx.tessellate(output.shapes, pixels_per_point);
+        let mut textures = output.textures_delta;
         let painted = open.stage.paint(
             &primitives,
-            &output.textures_delta,
+            &mut textures,
             pixels_per_point,
             self.app.picture().map(|(_, picture)| picture),
         );
@@ -253,10 +254,10 @@ impl Shell<'_> {
     fn open_again(&mut self) -> Result<(), String> {
         let gpu = self.app.device.wait()?;
         if let Some(open) = &mut self.window {
+            let textures = open.stage.take_textures();
             open.stage = Stage::new(gpu, Arc::clone(&open.window))?;
+            open.stage.put_textures(textures);
             open.revision = self.app.device_revision;
-            // Fonts and icons are on the old device only: all are sent again.
-            self.ctx.options_mut(|_| ());
         }
         Ok(())
     }

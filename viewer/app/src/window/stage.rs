@@ -1,7 +1,9 @@
 //! What a window is painted with: a surface, and the interface's triangles on it.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
+use egui::epaint::ImageDelta;
 use egui::{ClippedPrimitive, TextureId, TexturesDelta};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use viewer::gpu::Gpu;
@@ -16,6 +18,23 @@ pub struct Stage {
     picture: TextureId,
     /// The view that `picture` stands for.
     shown: Option<wgpu::TextureView>,
+    textures: Textures,
+}
+
+/// How each texture came to be what it is, for another device; images are shared.
+pub type Textures = HashMap<TextureId, Steps>;
+
+/// A whole image, and what was changed of it.
+#[derive(Default)]
+pub struct Steps(Vec<ImageDelta>);
+
+impl Steps {
+    fn add(&mut self, delta: ImageDelta) {
+        if delta.is_whole() {
+            self.0.clear();
+        }
+        self.0.push(delta);
+    }
 }
 
 impl Stage {
@@ -56,6 +75,7 @@ impl Stage {
             painter,
             picture,
             shown: None,
+            textures: Textures::new(),
         })
     }
 
@@ -84,7 +104,7 @@ impl Stage {
     pub fn paint(
         &mut self,
         primitives: &[ClippedPrimitive],
-        textures: &TexturesDelta,
+        textures: &mut TexturesDelta,
         pixels_per_point: f32,
         picture: Option<&wgpu::TextureView>,
     ) -> bool {
@@ -101,16 +121,19 @@ impl Stage {
             );
             self.shown = Some(picture.clone());
         }
-        for (id, deltas) in &textures.set {
+        for (id, deltas) in textures.set.drain() {
             for delta in deltas {
-                self.painter.update_texture(device, queue, *id, delta);
+                self.painter.update_texture(device, queue, id, &delta);
+                self.textures.entry(id).or_default().add(delta);
             }
         }
+        let free: Vec<TextureId> = textures.free.drain().collect();
         let target = match self.surface.get_current_texture() {
             wgpu::CurrentSurfaceTexture::Success(target)
             | wgpu::CurrentSurfaceTexture::Suboptimal(target) => target,
             _ => {
                 self.surface.configure(device, &self.config);
+                self.free(&free);
                 return false;
             }
         };
@@ -145,10 +168,31 @@ impl Stage {
         commands.push(encoder.finish());
         queue.submit(commands);
         queue.present(target);
-        for id in &textures.free {
-            self.painter.free_texture(id);
-        }
+        self.free(&free);
         true
+    }
+
+    fn free(&mut self, ids: &[TextureId]) {
+        for id in ids {
+            self.painter.free_texture(id);
+            self.textures.remove(id);
+        }
+    }
+
+    /// The interface's own textures, for a stage on another device.
+    pub fn take_textures(&mut self) -> Textures {
+        std::mem::take(&mut self.textures)
+    }
+
+    /// Takes over the textures of another stage.
+    pub fn put_textures(&mut self, textures: Textures) {
+        for (id, steps) in &textures {
+            for delta in &steps.0 {
+                self.painter
+                    .update_texture(&self.gpu.device, &self.gpu.queue, *id, delta);
+            }
+        }
+        self.textures = textures;
     }
 }
 
