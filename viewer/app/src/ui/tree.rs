@@ -68,7 +68,7 @@ impl App {
                 self.set_shown(row, is_shown);
             }
             if is_group && !is_flat {
-                let sign = if self.open_rows[row] { "⏷" } else { "⏵" };
+                let sign = if self.open_rows[row] { "−" } else { "+" };
                 if ui.small_button(sign).clicked() {
                     self.open_rows[row] ^= true;
                 }
