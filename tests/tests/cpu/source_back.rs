@@ -10,7 +10,7 @@ use convert::{
 };
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 
-use super::models::{Model, corpus, samples};
+use super::models::{Model, check_all};
 
 /// The `.glb` with source of a text in `folder`.
 pub fn glb_with_source(text: &[u8], folder: &Path, loader: &FileLoader) -> Result<Vec<u8>, String> {
@@ -64,16 +64,5 @@ fn check(model: &Model) -> Result<(), String> {
 
 #[test]
 fn source_and_file_come_back_byte_for_byte() {
-    let mut faults = Vec::new();
-    for model in samples().iter().chain(&corpus()) {
-        if let Err(why) = check(model) {
-            faults.push(format!("{}: {why}", model.name));
-        }
-    }
-    assert!(
-        faults.is_empty(),
-        "{} faults\n{}",
-        faults.len(),
-        faults.join("\n")
-    );
+    check_all(check);
 }
