@@ -119,7 +119,7 @@ impl LossKind {
                 "glTF light falls with the square of the distance; it is right where the source's \
                  light has fallen to half, at least a quarter of the way to the centre of the \
                  scene's bounds and at most there. The factors are in the light's \
-                 `extras.iv.attenuation`",
+                 `extras.iv.attenuation`, that distance in `extras.iv.referenceDistance`",
             ),
             Self::SpotDropOff => (
                 "spot-drop-off",

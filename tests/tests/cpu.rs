@@ -7,6 +7,7 @@ mod cpu {
     mod corpus;
     mod determinism;
     mod edited;
+    mod edited_values;
     mod glb;
     mod gltf_in;
     mod includes;

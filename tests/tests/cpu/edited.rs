@@ -40,13 +40,13 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 /// The text of a `.glb`, and what follows it.
-fn parts(glb: &[u8]) -> (Value, &[u8]) {
+pub fn parts(glb: &[u8]) -> (Value, &[u8]) {
     let length = glb[12..16].try_into().map_or(0, u32::from_le_bytes) as usize;
     let text = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
     (text, &glb[20 + length..])
 }
 
-fn joined(text: &Value, rest: &[u8]) -> Vec<u8> {
+pub fn joined(text: &Value, rest: &[u8]) -> Vec<u8> {
     let mut text = text.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let words = [2, 20 + text.len() + rest.len(), text.len()];
