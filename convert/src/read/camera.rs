@@ -8,7 +8,8 @@ use scenegraph::scene::{Camera, Placement, Projection, ViewportMapping};
 
 use super::document::ExactCamera;
 use super::iv::Iv;
-use super::made_by::{MadeBy, alike_in_size};
+use super::made_by::MadeBy;
+use crate::alike::alike_in_size;
 use crate::camera::{positive_or, written_range};
 
 /// Inventor's `nearDistance`, `farDistance` and `focalDistance`: ones that nobody has chosen.

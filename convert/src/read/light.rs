@@ -14,8 +14,9 @@ use scenegraph::scene::{Beam, Environment, EnvironmentId, Light, LightKind, Plac
 use serde_json::Value;
 
 use super::iv::Iv;
-use super::made_by::{MadeBy, alike, alike_colors, alike_in_size};
+use super::made_by::MadeBy;
 use crate::Lights;
+use crate::alike::{alike_in_size, all_alike};
 use crate::color::{linear_rgb_from_srgb, srgb_from_linear, unit};
 use crate::light::{LUMEN_PER_WATT, cone as written_cone, strength};
 
@@ -86,7 +87,7 @@ impl Lamp {
     fn settle(&mut self, iv: &Iv, source: &JsonLight, spot: &Spot, unit: Lights) {
         let color_srgb = iv.triple("color", [1.0; 3]);
         let written = linear_rgb_from_srgb(color_srgb).map(srgb_from_linear);
-        if alike_colors(written, self.color_srgb) {
+        if all_alike(&written, &self.color_srgb) {
             self.color_srgb = color_srgb;
         }
         let directional = matches!(self.kind, LightKind::Directional { .. });
@@ -116,7 +117,7 @@ impl Lamp {
             let beam = iv.beam();
             let (inner_rad, outer_rad) = written_cone(rate, cut_off_rad, beam);
             let shown = [spot.inner_cone_angle, spot.outer_cone_angle].map(f64::from);
-            if alike(inner_rad, shown[0]) && alike(outer_rad, shown[1]) {
+            if alike_in_size(inner_rad, shown[0]) && alike_in_size(outer_rad, shown[1]) {
                 (*drop_off_rate, *cut_off_angle_rad) = (rate, cut_off_rad);
                 self.beam = beam;
             } else {

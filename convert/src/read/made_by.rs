@@ -1,15 +1,11 @@
-//! What a file was made by, and how it is seen that a value was edited since: Inventor's own value in
-//! the extras is worth what the writer makes of it, and where the file says something else, the file
-//! is right.
+//! What a file was made by. By that it is seen whether a value was edited since: Inventor's own value
+//! in the extras is worth what the writer makes of it, and where the file says something else, the
+//! file is right.
 
 use gltf::json::Extras;
 
 use super::iv::Iv;
 use crate::{Lights, Materials};
-
-/// Colours, shares and angles: values that went through linear light, a quotient and f32. Half a
-/// step of 8-bit colours is a hundred times as much.
-const VALUE_TOLERANCE: f64 = 2e-5;
 
 /// The writer of a file, and the choices that its values depend on.
 #[derive(Clone, Copy, Debug)]
@@ -51,19 +47,4 @@ impl MadeBy {
     pub(crate) fn values(self, extras: &Extras) -> Option<Iv> {
         Iv::of(extras).or_else(|| self.ivory.then(Iv::default))
     }
-}
-
-/// Whether shares or angles are equal but for what f32 leaves of them.
-pub(crate) fn alike(a: f64, b: f64) -> bool {
-    (a - b).abs() <= VALUE_TOLERANCE
-}
-
-/// As [`alike`], of colours.
-pub(crate) fn alike_colors(a: [f64; 3], b: [f64; 3]) -> bool {
-    a.into_iter().zip(b).all(|(a, b)| alike(a, b))
-}
-
-/// As [`alike`], of values of any size.
-pub(crate) fn alike_in_size(a: f64, b: f64) -> bool {
-    (a - b).abs() <= VALUE_TOLERANCE * a.abs().max(b.abs())
 }

@@ -8,9 +8,9 @@
 use gltf::json::material::Material as JsonMaterial;
 use scenegraph::scene::{LightModel, Material, MaterialId};
 
-use super::made_by::{alike, alike_colors};
 use super::material::from_gltf;
 use crate::Materials;
+use crate::alike::{alike, all_alike};
 use crate::image::Alpha;
 use crate::json::Json;
 use crate::material::{GltfMaterial, Surroundings, VertexColors};
@@ -116,9 +116,9 @@ impl Edited {
         // Of what is not lit, neither highlights nor a glow of its own show.
         let lit = shown.light_model == LightModel::Phong;
         Self {
-            diffuse: !alike_colors(made.diffuse_srgb, shown.diffuse_srgb),
-            specular: lit && !alike_colors(made.specular_srgb, shown.specular_srgb),
-            emissive: lit && !alike_colors(made.emissive_srgb, shown.emissive_srgb),
+            diffuse: !all_alike(&made.diffuse_srgb, &shown.diffuse_srgb),
+            specular: lit && !all_alike(&made.specular_srgb, &shown.specular_srgb),
+            emissive: lit && !all_alike(&made.emissive_srgb, &shown.emissive_srgb),
             shininess: lit && !alike(made.shininess, shown.shininess),
             transparency: !alike(made.transparency, shown.transparency),
             light_model: made.light_model != shown.light_model,

@@ -12,6 +12,7 @@ mod made;
 mod patch;
 mod paths;
 mod recorder;
+mod same;
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -19,6 +20,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use iv_parser::{Dialect, Encoding, Limits};
+use rustc_hash::FxHashMap;
 use scenegraph::scene::Scene;
 use scenegraph::{RegistryLayout, ResolveOptions, legal_name};
 
@@ -82,8 +84,14 @@ fn with_source(scene: &Scene, options: &Options, source: &Source<'_>) -> Result<
     write_glb(scene, &without_source(options), source.recorder, &mut glb)?;
     let images = crate::read::images_of(&glb).unwrap_or_default();
     let mut files = vec![(String::new(), Content::Here(source.text.into()))];
+    let mut by_bytes: FxHashMap<&[u8], usize> = FxHashMap::default();
+    for (i, image) in images.iter().enumerate() {
+        if let Some(bytes) = image {
+            by_bytes.entry(&**bytes).or_insert(i);
+        }
+    }
     for (path, bytes) in source.recorder.files() {
-        let same = images.iter().position(|i| i.as_deref() == Some(&*bytes));
+        let same = by_bytes.get(&*bytes).copied();
         let content = match same {
             Some(index) => Content::Image {
                 index,
@@ -152,14 +160,19 @@ pub(crate) struct Carried {
 impl Carried {
     /// Puts images where the source has them.
     pub(crate) fn new(archive: Archive, images: &[Option<Arc<[u8]>>]) -> Self {
-        let sums: Vec<Option<u32>> = images.iter().map(|i| i.as_deref().map(crc)).collect();
+        let mut by_sum: FxHashMap<u32, usize> = FxHashMap::default();
+        for (i, image) in images.iter().enumerate() {
+            if let Some(bytes) = image {
+                by_sum.entry(crc(bytes)).or_insert(i);
+            }
+        }
         let mut files = Vec::new();
         let mut images_edited = Vec::new();
         for (path, content) in &archive.files {
             match content {
                 Content::Here(bytes) => files.push((path.clone(), Arc::clone(bytes))),
                 Content::Image { index, crc } => {
-                    let same = sums.iter().position(|sum| *sum == Some(*crc));
+                    let same = by_sum.get(crc).copied();
                     if same.is_none() {
                         images_edited.push(path.clone());
                     }
@@ -170,7 +183,7 @@ impl Carried {
         }
         Self {
             archive,
-            files: Unpacked { files },
+            files: Unpacked::new(files),
             images_edited,
         }
     }
@@ -278,14 +291,11 @@ fn with_edits(
     }
     let attempt = |materials| {
         let patched = patch::patch(&parsed.tree, &was, edited, &edits, &names, materials)?;
-        let now = Unpacked {
-            files: (carried.files.files.iter())
-                .map(|(path, bytes)| {
-                    let new = patched.renamed_images.get(path).unwrap_or(path);
-                    (new.clone(), Arc::clone(bytes))
-                })
-                .collect(),
-        };
+        let now = (carried.files.files().iter()).map(|(path, bytes)| {
+            let new = patched.renamed_images.get(path).unwrap_or(path);
+            (new.clone(), Arc::clone(bytes))
+        });
+        let now = Unpacked::new(now.collect());
         let result = again(carried, &now, &patched.text, limits)?;
         let moved = !(edits.frames.is_empty() && edits.meshes.is_empty());
         let left = not_arrived(&result.objects, edited, moved);
@@ -411,7 +421,6 @@ fn unedited(input: &Input<'_>, carried: &Carried) -> InventorFiles {
     files
 }
 
-/// Adds what the source refers to, as far as it is not there. Nothing is written over.
 /// Whether bytes are what a model refers to. Others may come from a file that somebody made up, and
 /// do not belong on a disk.
 fn is_of_a_model(path: &str, bytes: &[u8]) -> bool {
@@ -424,8 +433,9 @@ fn is_of_a_model(path: &str, bytes: &[u8]) -> bool {
     begins || is_targa || image::guess_format(bytes).is_ok() || unpack::Format::of(bytes).is_some()
 }
 
+/// Adds what the source refers to, as far as it is not there. Nothing is written over.
 fn beside(input: &Input<'_>, source: &Unpacked, files: &mut InventorFiles) {
-    for (path, bytes) in source.files.iter().skip(1) {
+    for (path, bytes) in source.files().iter().skip(1) {
         if !is_of_a_model(path, bytes) {
             files.note(
                 "no-image",
