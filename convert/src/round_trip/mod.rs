@@ -14,12 +14,13 @@ mod paths;
 mod recorder;
 mod same;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use iv_parser::{Dialect, Encoding, Limits};
+use iv_parser::{Encoding, Limits};
 use rustc_hash::FxHashMap;
 use scenegraph::scene::Scene;
 use scenegraph::{RegistryLayout, ResolveOptions, legal_name};
@@ -272,14 +273,6 @@ fn with_edits(
     let limits = &input.options.limits;
     let text = as_ascii(carried.archive.root());
     let parsed = iv_parser::parse(&text);
-    if parsed.tree.header.dialect == Dialect::Vrml2 {
-        return Err("edits are not put into texts of VRML 2.0".to_owned());
-    }
-    let (options, _) = made::from_value(&carried.archive.made);
-    let usual = Options::default();
-    if (options.up, options.metres_per_unit) != (usual.up, usual.metres_per_unit) {
-        return Err("edits are not put into texts whose model was turned or scaled".to_owned());
-    }
     let was = again(carried, &carried.files, &text, limits)?;
     let edits = Edits::between(&was.objects, edited);
     // An edited image whose name is taken gets another one.
@@ -373,6 +366,7 @@ fn unusable(why: &str) -> Note {
 
 /// A source converted again.
 pub(crate) struct Again {
+    /// As it was written: with the group that turns or scales it, if any.
     pub(crate) scene: Scene,
     pub(crate) origins: Origins,
     pub(crate) objects: Objects,
@@ -397,8 +391,12 @@ fn again(
     let objects = Objects::read(&glb, Path::new(""), files, limits).map_err(|e| e.to_string())?;
     let origins = plan.origins();
     drop(plan);
+    let arranged = match prepared.scene {
+        Cow::Owned(scene) => Some(scene),
+        Cow::Borrowed(_) => None,
+    };
     Ok(Again {
-        scene,
+        scene: arranged.unwrap_or(scene),
         origins,
         objects,
         glb: (crc(&glb), glb.len() as u64),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use convert::{InventorFiles, Options, write_glb};
+use convert::{InventorFiles, Options, Up, write_glb};
 use glam::{DAffine3, DQuat, DVec3};
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -15,7 +15,7 @@ use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 use serde_json::{Value, json};
 
 use super::models::{Images, Model, samples};
-use super::source_back::{back, glb_with_source};
+use super::source_back::{back, glb_made_so};
 
 /// An edit of one object, whichever there is.
 #[derive(Clone, Debug)]
@@ -95,7 +95,7 @@ fn apply(document: &mut Value, edit: &Edit) -> bool {
 }
 
 /// The JSON of what a text and the files beside it give.
-fn converted(files: &InventorFiles) -> Value {
+fn converted(files: &InventorFiles, options: &Options) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path().canonicalize().expect("a folder");
     for (name, bytes) in &files.beside {
@@ -107,7 +107,7 @@ fn converted(files: &InventorFiles) -> Value {
     let graph = load(&files.text, "model.iv", &folder, &loader);
     let scene = resolve(&graph, &ResolveOptions::default()).scene;
     let mut glb = Vec::new();
-    write_glb(&scene, &Options::default(), &Images(loader), &mut glb).expect("a file");
+    write_glb(&scene, options, &Images(loader), &mut glb).expect("a file");
     parts(&glb).0
 }
 
@@ -230,7 +230,7 @@ enum Fate {
     Anew,
 }
 
-fn fate(model: &Model, glb: &[u8], edit: &Edit) -> Result<Fate, String> {
+fn fate(model: &Model, glb: &[u8], edit: &Edit, options: &Options) -> Result<Fate, String> {
     let (mut document, rest) = parts(glb);
     if !apply(&mut document, edit) {
         return Ok(Fate::Nothing);
@@ -240,7 +240,7 @@ fn fate(model: &Model, glb: &[u8], edit: &Edit) -> Result<Fate, String> {
     if anew {
         return Ok(Fate::Anew);
     }
-    let result = converted(&files);
+    let result = converted(&files, options);
     if let Some(why) = difference(&document, &result) {
         let why: String = why.chars().take(700).collect();
         return Err(format!("{} {edit:?}: {why}", model.name));
@@ -248,8 +248,8 @@ fn fate(model: &Model, glb: &[u8], edit: &Edit) -> Result<Fate, String> {
     Ok(Fate::Patched)
 }
 
-#[test]
-fn edits_arrive_in_the_source() {
+/// What became of some edits of each sample of which `is_one_of` holds.
+fn fates(is_one_of: impl Fn(&[u8]) -> bool, options: &Options) -> BTreeMap<Fate, usize> {
     let mut runner = TestRunner::new_with_rng(
         Config::default(),
         TestRng::deterministic_rng(RngAlgorithm::ChaCha),
@@ -258,16 +258,15 @@ fn edits_arrive_in_the_source() {
     let mut faults = Vec::new();
     for model in samples() {
         let text = fs::read(&model.path).expect("a sample");
+        if !is_one_of(&text) {
+            continue;
+        }
         let folder = model.path.parent().unwrap_or(Path::new(".")).canonicalize();
         let folder = folder.expect("a folder");
-        let glb = glb_with_source(&text, &folder, &model.loader()).expect("a file");
+        let glb = glb_made_so(&text, &folder, &model.loader(), options).expect("a file");
         for _ in 0..8 {
             let edit = edit().new_tree(&mut runner).expect("an edit").current();
-            match fate(&model, &glb, &edit) {
-                // Edits are not put into texts of VRML 2.0.
-                Ok(fate) if text.starts_with(b"#VRML V2.0") => {
-                    assert_ne!(fate, Fate::Patched, "{}", model.name);
-                }
+            match fate(&model, &glb, &edit, options) {
                 Ok(fate) => {
                     if fate == Fate::Anew {
                         println!("{} {edit:?}", model.name);
@@ -285,7 +284,31 @@ fn edits_arrive_in_the_source() {
         faults.len(),
         faults.join("\n")
     );
-    // What is left are edits of one of several uses of a node, and of what the source computes.
+    fates
+}
+
+fn is_vrml2(text: &[u8]) -> bool {
+    text.starts_with(b"#VRML V2.0")
+}
+
+#[test]
+fn edits_arrive_in_the_source() {
+    let turned = Options {
+        up: Up::Z,
+        metres_per_unit: 0.001,
+        ..Options::default()
+    };
+    for options in [Options::default(), turned] {
+        let fates = fates(|text| !is_vrml2(text), &options);
+        // What is left are edits of one of several uses of a node, and of what the source computes.
+        let count = |fate: Fate| fates.get(&fate).copied().unwrap_or_default();
+        assert!(count(Fate::Patched) > 4 * count(Fate::Anew), "{fates:?}");
+    }
+}
+
+#[test]
+fn edits_arrive_in_vrml_2() {
+    let fates = fates(is_vrml2, &Options::default());
     let count = |fate: Fate| fates.get(&fate).copied().unwrap_or_default();
-    assert!(count(Fate::Patched) > 4 * count(Fate::Anew), "{fates:?}");
+    assert!(count(Fate::Patched) > 2 * count(Fate::Anew), "{fates:?}");
 }

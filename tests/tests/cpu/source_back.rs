@@ -14,6 +14,16 @@ use super::models::{Model, check_all};
 
 /// The `.glb` with source of a text in `folder`.
 pub fn glb_with_source(text: &[u8], folder: &Path, loader: &FileLoader) -> Result<Vec<u8>, String> {
+    glb_made_so(text, folder, loader, &Options::default())
+}
+
+/// As [`glb_with_source`], with options.
+pub fn glb_made_so(
+    text: &[u8],
+    folder: &Path,
+    loader: &FileLoader,
+    options: &Options,
+) -> Result<Vec<u8>, String> {
     let recorder = Recorder::new(loader, folder);
     let graph = load(text, "model.iv", folder, &recorder);
     let resolve_options = ResolveOptions::default();
@@ -24,8 +34,7 @@ pub fn glb_with_source(text: &[u8], folder: &Path, loader: &FileLoader) -> Resul
         recorder: &recorder,
         resolve: &resolve_options,
     };
-    write_glb_with_source(&scene, &Options::default(), &source, &mut glb)
-        .map_err(|error| error.to_string())?;
+    write_glb_with_source(&scene, options, &source, &mut glb).map_err(|error| error.to_string())?;
     Ok(glb)
 }
 
