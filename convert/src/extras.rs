@@ -182,9 +182,9 @@ pub(crate) fn camera(json: &mut Json, camera: &Camera, unit_length: f64, made_fa
     });
 }
 
-/// Classes that say no more than that there is a node.
+/// Classes that say no more than that there is a node, and where.
 fn is_plain_group(class: &str) -> bool {
-    matches!(class, "Separator" | "Group")
+    matches!(class, "Separator" | "Group" | "VRMLGroup" | "VRMLTransform")
 }
 
 /// The class of a node when it says something.

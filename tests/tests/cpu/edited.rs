@@ -248,8 +248,8 @@ fn fate(model: &Model, glb: &[u8], edit: &Edit, options: &Options) -> Result<Fat
     Ok(Fate::Patched)
 }
 
-/// What became of some edits of each sample of which `is_one_of` holds.
-fn fates(is_one_of: impl Fn(&[u8]) -> bool, options: &Options) -> BTreeMap<Fate, usize> {
+/// What became of some edits of each sample.
+fn fates(options: &Options) -> BTreeMap<Fate, usize> {
     let mut runner = TestRunner::new_with_rng(
         Config::default(),
         TestRng::deterministic_rng(RngAlgorithm::ChaCha),
@@ -258,9 +258,6 @@ fn fates(is_one_of: impl Fn(&[u8]) -> bool, options: &Options) -> BTreeMap<Fate,
     let mut faults = Vec::new();
     for model in samples() {
         let text = fs::read(&model.path).expect("a sample");
-        if !is_one_of(&text) {
-            continue;
-        }
         let folder = model.path.parent().unwrap_or(Path::new(".")).canonicalize();
         let folder = folder.expect("a folder");
         let glb = glb_made_so(&text, &folder, &model.loader(), options).expect("a file");
@@ -287,10 +284,6 @@ fn fates(is_one_of: impl Fn(&[u8]) -> bool, options: &Options) -> BTreeMap<Fate,
     fates
 }
 
-fn is_vrml2(text: &[u8]) -> bool {
-    text.starts_with(b"#VRML V2.0")
-}
-
 #[test]
 fn edits_arrive_in_the_source() {
     let turned = Options {
@@ -299,16 +292,121 @@ fn edits_arrive_in_the_source() {
         ..Options::default()
     };
     for options in [Options::default(), turned] {
-        let fates = fates(|text| !is_vrml2(text), &options);
+        let fates = fates(&options);
         // What is left are edits of one of several uses of a node, and of what the source computes.
         let count = |fate: Fate| fates.get(&fate).copied().unwrap_or_default();
         assert!(count(Fate::Patched) > 4 * count(Fate::Anew), "{fates:?}");
     }
 }
 
+const VRML2: &str = "#VRML V2.0 utf8
+Viewpoint { position 0 0 9 fieldOfView 0.5 }
+DEF Lamp SpotLight { location 1 2 3 color 1 0.5 0 cutOffAngle 0.5 } # a lamp
+DEF Arm Transform { translation 1 2 3 center 0 1 0 rotation 0 1 0 0.5 children [
+  DEF Bolt Shape {
+    appearance Appearance { material DEF Red Material { diffuseColor 1 0 0 } } # red
+    geometry Box { }
+  }
+] }
+DEF Pair Group { children [
+  Shape { appearance Appearance { material DEF Blue Material { } } geometry Sphere { } }
+  DEF Tip Shape { geometry Cone { } }
+] }
+";
+
+/// What can be edited in a text of VRML 2.0, and what then stands in it.
 #[test]
 fn edits_arrive_in_vrml_2() {
-    let fates = fates(is_vrml2, &Options::default());
-    let count = |fate: Fate| fates.get(&fate).copied().unwrap_or_default();
-    assert!(count(Fate::Patched) > 2 * count(Fate::Anew), "{fates:?}");
+    let (nodes, materials) = ("/nodes", "/materials");
+    let lights = "/extensions/KHR_lights_punctual/lights";
+    let turn = json!([0, 0.6, 0, 0.8]);
+    let rows = [
+        (nodes, "Arm", "name", json!("Leg"), "DEF Leg Transform {"),
+        (
+            nodes,
+            "Arm",
+            "translation",
+            json!([1, 2, 4]),
+            "translation 1 2 4",
+        ),
+        (
+            nodes,
+            "Arm",
+            "rotation",
+            turn.clone(),
+            "DEF Arm Transform {",
+        ),
+        (nodes, "Arm", "scale", json!([1, 2, 1]), "scale 1 2 1"),
+        (
+            nodes,
+            "Tip",
+            "translation",
+            json!([0, 0, 7]),
+            "Transform { translation 0 0 7 children [ DEF Tip",
+        ),
+        (nodes, "Pair", "rotation", turn, "children [ DEF Pair"),
+        (
+            nodes,
+            "Lamp",
+            "translation",
+            json!([1, 2, 5]),
+            "location 1 2 5",
+        ),
+        (
+            materials,
+            "Red",
+            "name",
+            json!("Rust"),
+            "DEF Rust Material {",
+        ),
+        (
+            materials,
+            "Red",
+            "emissiveFactor",
+            json!([0, 1, 0]),
+            "emissiveColor 0 1 0",
+        ),
+        (
+            materials,
+            "Blue",
+            "emissiveFactor",
+            json!([0, 1, 0]),
+            "emissiveColor 0 1 0",
+        ),
+        (lights, "", "color", json!([0, 1, 0]), "color 0 1 0"),
+        (
+            "/cameras",
+            "",
+            "perspective",
+            json!({"yfov": 0.75, "znear": 0.1}),
+            "fieldOfView 0.75",
+        ),
+    ];
+    let nothing = FileLoader::default();
+    let turned = Options {
+        up: Up::Z,
+        metres_per_unit: 0.5,
+        ..Options::default()
+    };
+    let mut faults = Vec::new();
+    for options in [Options::default(), turned] {
+        let glb = glb_made_so(VRML2.as_bytes(), Path::new(""), &nothing, &options);
+        let glb = glb.expect("a file");
+        for (list, name, key, value, want) in &rows {
+            let (mut document, rest) = parts(&glb);
+            let objects = document.pointer_mut(list).and_then(Value::as_array_mut);
+            let objects = objects.expect("a list").iter_mut();
+            let mut named = objects.filter(|o| name.is_empty() || o["name"] == *name);
+            named.next().expect(name)[*key] = value.clone();
+            let files = back(&joined(&document, rest)).expect("a text");
+            let text = String::from_utf8_lossy(&files.text);
+            if !(text.contains(want) && text.contains("# a lamp")) {
+                faults.push(format!("{name} {key}: {:?}\n{text:.900}", files.notes));
+                continue;
+            }
+            let difference = difference(&document, &converted(&files, &options));
+            faults.extend(difference.map(|why| format!("{name} {key}: {why}")));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

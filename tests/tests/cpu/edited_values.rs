@@ -135,10 +135,13 @@ fn scattered(color_srgb: f64, shininess: f64, strength: f64) -> f64 {
     1.055 * linear.powf(1.0 / 2.4) - 0.055
 }
 
+/// Where a value stands, its new one, and what of the scene has which values then.
+type Row = (String, Value, Vec<(&'static str, Vec<f64>)>);
+
 #[test]
 fn edits_count_more_than_extras() {
     let lights = "/extensions/KHR_lights_punctual/lights";
-    let rows: Vec<(String, Value, Vec<(&str, Vec<f64>)>)> = vec![
+    let rows: Vec<Row> = vec![
         (
             "/materials/0/pbrMetallicRoughness/baseColorFactor".into(),
             json!([1, 0, 0, 0.5]),

@@ -1,5 +1,6 @@
 //! Names and transforms of parts.
 
+use geometry::transform::{Decomposition, decompose};
 use glam::{DAffine3, DMat3, DVec3};
 use iv_parser::NodeId as TreeId;
 use scenegraph::legal_name;
@@ -83,7 +84,9 @@ impl Patcher<'_, '_, '_> {
             };
             let change = tidy(outside.inverse() * new * old.inverse() * outside)?;
             let node = self.node_at(pos)?;
-            if self.is_vrml2() && occurrence.1 == 1 && self.moves_by_itself(node, &change)? {
+            let own = frame_of(outer);
+            let is_only = self.is_vrml2() && occurrence.1 == 1;
+            if is_only && self.moves_by_itself(node, own, &change)? {
                 return Ok(());
             }
             let place = self.place(node, occurrence);
@@ -97,19 +100,51 @@ impl Patcher<'_, '_, '_> {
         self.move_contents(node, &change)
     }
 
-    /// Moves a `Transform` of VRML 2.0 by its own field, if that will do.
-    fn moves_by_itself(&mut self, node: TreeId, change: &DAffine3) -> Result<bool, No> {
-        if self.class(node) != "Transform" || change.matrix3 != DMat3::IDENTITY {
+    /// Moves a `Transform` of VRML 2.0 by its own fields, if they will do. `own` is its frame.
+    fn moves_by_itself(
+        &mut self,
+        node: TreeId,
+        own: DAffine3,
+        change: &DAffine3,
+    ) -> Result<bool, No> {
+        if self.class(node) != "Transform" {
             return Ok(false);
         }
-        let old = match self.edits.field(node, "translation") {
-            None => Some(DVec3::ZERO),
-            Some(_) => self.triple(node, "translation"),
+        let center = self.triple_or(node, "center", DVec3::ZERO);
+        let old = self.triple_or(node, "translation", DVec3::ZERO);
+        let (Some(center), Some(old)) = (center, old) else {
+            return Ok(false);
         };
-        let Some(old) = old else { return Ok(false) };
-        let moved = tidy_triple(old + change.translation);
-        self.set(node, "translation", &triple_text(moved))?;
+        if change.matrix3 == DMat3::IDENTITY {
+            let moved = tidy_triple(old + change.translation);
+            self.set(node, "translation", &triple_text(moved))?;
+            return Ok(true);
+        }
+        let frame = *change * own;
+        let is_turned = self.edits.field(node, "scaleOrientation").is_some();
+        let Decomposition::Trs(trs) = decompose(&frame) else {
+            return Ok(false);
+        };
+        if is_turned || trs.scale.min_element() <= 0.0 {
+            return Ok(false);
+        }
+        let (axis, angle_rad) = trs.rotation.to_axis_angle();
+        let moved = frame.translation + frame.matrix3 * center - center;
+        self.set(node, "translation", &triple_text(tidy_triple(moved)))?;
+        let rotation = format!("{} {angle_rad}", triple_text(axis));
+        self.set(node, "rotation", &rotation)?;
+        if trs.scale != DVec3::ONE || self.edits.field(node, "scale").is_some() {
+            self.set(node, "scale", &triple_text(trs.scale))?;
+        }
         Ok(true)
+    }
+
+    /// As [`Self::triple`], or the default of a field that is not there.
+    fn triple_or(&self, node: TreeId, field: &str, default: DVec3) -> Option<DVec3> {
+        match self.edits.field(node, field) {
+            None => Some(default),
+            Some(_) => self.triple(node, field),
+        }
     }
 
     /// Moves all in a group: by its first transform where that can take the change in, else by one

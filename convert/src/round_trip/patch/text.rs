@@ -96,7 +96,7 @@ pub(super) fn vrml_transform_text(change: &DAffine3) -> Result<String, No> {
         let _ = write!(text, " rotation {} {angle_rad}", triple_text(axis));
     }
     if trs.scale != DVec3::ONE {
-        // Inventor's successor knows no factor of 0 or below.
+        // ISO 14772-1, 6.52: factors are above 0.
         if trs.scale.min_element() <= 0.0 {
             return Err("a Transform does not mirror".to_owned());
         }
