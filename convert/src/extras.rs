@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_PI_4;
 
 use scenegraph::scene::{
-    Camera, Environment, Faces, Fog, FogType, Light, LightId, LightKind, LightModel, Material,
-    Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
+    Camera, Environment, Faces, Fog, FogType, Light, LightId, LightKind, LightModel, Link,
+    Material, Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
 };
 
 use crate::json::Json;
@@ -203,6 +203,7 @@ pub(crate) fn node<'a>(
     json: &mut Json,
     class: Option<&str>,
     notes: impl IntoIterator<Item = &'a str>,
+    link: Option<&Link>,
     text: Option<&Text>,
     scope: Scope,
 ) {
@@ -211,6 +212,9 @@ pub(crate) fn node<'a>(
             json.key("type").str(class);
         }
         json.array_unless_empty("notes", notes, |json, note| json.str(note));
+        if let Some(link) = link {
+            write_link(json, link);
+        }
         if let Some(text) = text {
             json.array_unless_empty("string", &text.strings, |json, line| json.str(line));
             if text.faces_viewer {
@@ -267,6 +271,19 @@ pub(crate) fn scene(json: &mut Json, scene: &Scene, source: Option<&str>) {
         json.array_unless_empty("lightSets", light_sets, |json, set| {
             json.array(|json| set.iter().for_each(|light| json.u64(light.0.into())));
         });
+    });
+}
+
+fn write_link(json: &mut Json, link: &Link) {
+    json.key("link").object(|json| {
+        json.array_unless_empty("url", &link.urls, |json, url| json.str(url));
+        if !link.description.is_empty() {
+            json.key("description").str(&link.description);
+        }
+        json.array_unless_empty("parameter", &link.parameters, |json, p| json.str(p));
+        if link.tells_point {
+            json.key("map").str("POINT");
+        }
     });
 }
 

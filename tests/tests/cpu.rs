@@ -12,6 +12,7 @@ mod cpu {
     mod gltf_in;
     mod includes;
     mod large;
+    mod links;
     mod measures;
     mod models;
     mod nurbs;

@@ -151,7 +151,8 @@ impl<'a> Walk<'a> {
         let notes: Vec<Arc<str>> = (iv.list("notes").iter())
             .filter_map(|note| Some(note.as_str()?.into()))
             .collect();
-        let says_more = !notes.is_empty() || iv.word("type").is_some();
+        let link = iv.link().map(Arc::new);
+        let says_more = !notes.is_empty() || link.is_some() || iv.word("type").is_some();
         // The words of a text belong to one shape; of several it is not known to which.
         if let ([Item::Shape(..)], [_]) = (&*items, &*copies) {
             self.text(&iv);
@@ -181,6 +182,7 @@ impl<'a> Walk<'a> {
             name: placement.name.take(),
             class,
             notes,
+            link,
             parent_from_local,
             pos: SourcePos::default(),
         });
