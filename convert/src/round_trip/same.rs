@@ -177,21 +177,29 @@ mod tests {
     /// A percent is an edit and a rounding to f32 is none, whatever the unit of the model.
     #[test]
     fn sizes_are_compared_in_their_own_unit() {
+        let view = |height: f64, near: f64, far: f64| {
+            camera(Projection::Orthographic { height }, near, far)
+        };
+        let frame = |scale: f64, place: f64| DAffine3 {
+            matrix3: DMat3::from_diagonal(DVec3::new(1.0, 1.0, scale)),
+            translation: DVec3::splat(place),
+        };
         for unit in [1e-9, 1e-4, 1.0, 1e7] {
-            let made = |by: f64| {
-                let view = Projection::Orthographic { height: unit * by };
-                let frame = DAffine3 {
-                    matrix3: DMat3::from_diagonal(DVec3::new(1.0, 1.0, unit * by)),
-                    translation: DVec3::splat(unit * by),
-                };
-                (camera(view, unit * by, 8.0 * unit * by), frame)
-            };
-            let (was, frame) = made(1.0);
             let narrow = f64::from(unit as f32) / unit;
             for (by, same) in [(1.01, false), (0.0, false), (narrow, true)] {
-                let (is, frame_now) = made(by);
-                assert_eq!(same_camera(&was, &is, false), same, "{unit} {by}");
-                assert_eq!(same_frame(&frame, &frame_now), same, "{unit} {by}");
+                let to = unit * by;
+                let was = view(unit, unit, unit);
+                for is in [
+                    view(to, unit, unit),
+                    view(unit, to, unit),
+                    view(unit, unit, to),
+                ] {
+                    assert_eq!(same_camera(&was, &is, false), same, "{unit} {by} {is:?}");
+                }
+                for is in [frame(to, unit), frame(unit, to)] {
+                    let found = same_frame(&frame(unit, unit), &is);
+                    assert_eq!(found, same, "{unit} {by} {is:?}");
+                }
             }
         }
     }
