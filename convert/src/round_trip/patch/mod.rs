@@ -15,7 +15,7 @@ use glam::DAffine3;
 use iv_parser::{NodeId as TreeId, TextEdits, Tree};
 use scenegraph::scene::Scene;
 
-use super::Again;
+use super::again::Again;
 use super::edits::Edits;
 use crate::read::Objects;
 use places::{Occurrences, nodes_by_place, world_frames};
