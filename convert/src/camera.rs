@@ -56,6 +56,7 @@ pub(crate) fn frame(camera: &Camera, parent_from_local: &DAffine3) -> DAffine3 {
 pub(crate) fn write(json: &mut Json, camera: &Camera, bounds: Option<&Bounds>, with_extras: bool) {
     let pose = Pose::new(camera, &camera.placement.world_from_local);
     let aspect = positive_or(camera.aspect_ratio, 1.0);
+    let mut made_far = None;
     json.object(|json| {
         match camera.projection {
             Projection::Perspective { height_angle_rad } => {
@@ -79,6 +80,8 @@ pub(crate) fn write(json: &mut Json, camera: &Camera, bounds: Option<&Bounds>, w
                 json.key("orthographic").object(|json| {
                     let ymag = positive_or(height * pose.up.length() * 0.5, 1.0);
                     let (near, far) = orthographic_range(camera, &pose, bounds);
+                    let is_made = written_range(camera, pose.forward.length()).is_none();
+                    made_far = is_made.then_some(far);
                     json.key("xmag").f64(positive_or(ymag * aspect, ymag));
                     json.key("ymag").f64(ymag);
                     json.key("znear").f64(near);
@@ -87,12 +90,12 @@ pub(crate) fn write(json: &mut Json, camera: &Camera, bounds: Option<&Bounds>, w
             }
         }
         if with_extras {
-            extras::camera(json, camera, pose.forward.length());
+            extras::camera(json, camera, pose.forward.length(), made_far);
         }
     });
 }
 
-fn positive_or(value: f64, otherwise: f64) -> f64 {
+pub(crate) fn positive_or(value: f64, otherwise: f64) -> f64 {
     if value > 0.0 && value.is_finite() {
         value
     } else {
@@ -100,13 +103,18 @@ fn positive_or(value: f64, otherwise: f64) -> f64 {
     }
 }
 
+fn is_orthographic(camera: &Camera) -> bool {
+    matches!(camera.projection, Projection::Orthographic { .. })
+}
+
 /// The range as written, in world units, if it is one that someone has chosen.
-fn written_range(camera: &Camera, pose: &Pose) -> Option<(f64, f64)> {
+pub(crate) fn written_range(camera: &Camera, unit_length: f64) -> Option<(f64, f64)> {
     let (near, far) = (camera.near_distance, camera.far_distance);
     let chosen = (near, far) != INVENTOR_DEFAULT_RANGE;
-    let scale = pose.forward.length();
-    let (near, far) = (near * scale, far * scale);
-    (chosen && near >= 0.0 && near < far && far.is_finite()).then_some((near, far))
+    let (near, far) = (near * unit_length, far * unit_length);
+    // A perspective has no near plane at the eye.
+    let sound = near > 0.0 || near == 0.0 && is_orthographic(camera);
+    (chosen && sound && near < far && far.is_finite()).then_some((near, far))
 }
 
 /// Depth of the scene's bounds: nearest and farthest; `None` if all of it is behind the camera.
@@ -120,9 +128,7 @@ fn depths(pose: &Pose, bounds: Option<&Bounds>) -> Option<(f64, f64)> {
 
 /// Near plane, and the far one unless it is infinitely far.
 fn perspective_range(camera: &Camera, pose: &Pose, bounds: Option<&Bounds>) -> (f64, Option<f64>) {
-    if let Some((near, far)) = written_range(camera, pose)
-        && near > 0.0
-    {
+    if let Some((near, far)) = written_range(camera, pose.forward.length()) {
         return (near, Some(far));
     }
     let near = match depths(pose, bounds) {
@@ -133,7 +139,7 @@ fn perspective_range(camera: &Camera, pose: &Pose, bounds: Option<&Bounds>) -> (
 }
 
 fn orthographic_range(camera: &Camera, pose: &Pose, bounds: Option<&Bounds>) -> (f64, f64) {
-    if let Some(range) = written_range(camera, pose) {
+    if let Some(range) = written_range(camera, pose.forward.length()) {
         return range;
     }
     let far = match depths(pose, bounds) {

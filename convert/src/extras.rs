@@ -4,11 +4,12 @@
 use std::f64::consts::FRAC_PI_4;
 
 use scenegraph::scene::{
-    Camera, Environment, Faces, Fog, FogType, Light, LightId, LightKind, LightModel, Material,
-    Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
+    Camera, Environment, Faces, Fog, FogType, Light, LightId, LightKind, LightModel, Link,
+    Material, Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
 };
 
 use crate::json::Json;
+use crate::{Options, Up};
 
 /// Half a unit in the last of the six digits that Inventor's documents give for defaults.
 const DEFAULT_TOLERANCE: f64 = 5e-7;
@@ -90,13 +91,21 @@ pub(crate) fn texture(json: &mut Json, texture: &Texture) {
     });
 }
 
-/// Says that values which are left out equal Inventor's defaults, and whether the model was turned.
+/// Says that values which are left out equal Inventor's defaults, whether the model was turned, and
+/// what was made of materials and lights, so that edits of them can be seen.
 /// A source stands here if there is no scene to hold it.
-pub(crate) fn asset(json: &mut Json, turned_upright: bool, source: Option<&str>) {
+pub(crate) fn asset(json: &mut Json, options: &Options, source: Option<&str>) {
+    let usual = Options::default();
     iv(json, |json| {
         json.key("version").u64(VERSION);
-        if turned_upright {
+        if options.up == Up::Z {
             json.key("up").str("Y");
+        }
+        if options.materials != usual.materials {
+            json.key("materials").str(options.materials.word());
+        }
+        if options.lights != usual.lights {
+            json.key("lights").str(options.lights.word());
         }
         write_source(json, source);
     });
@@ -108,8 +117,22 @@ fn write_source(json: &mut Json, source: Option<&str>) {
     }
 }
 
-pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
+/// `number_in_sets` is that by which the scene's light sets call it, `reference_distance` where a light
+/// that has a place is as bright as Inventor's.
+pub(crate) fn light(
+    json: &mut Json,
+    light: &Light,
+    environment: &Environment,
+    number_in_sets: Option<usize>,
+    reference_distance: Option<f64>,
+) {
     iv(json, |json| {
+        if let Some(number) = number_in_sets {
+            json.key("number").usize(number);
+        }
+        if let Some(distance) = reference_distance {
+            json.key("referenceDistance").f64(distance);
+        }
         number(json, "intensity", light.intensity, 1.0);
         numbers(json, "color", light.color_srgb, [1.0; 3]);
         if !matches!(light.kind, LightKind::Directional { .. }) {
@@ -138,8 +161,12 @@ pub(crate) fn light(json: &mut Json, light: &Light, environment: &Environment) {
 }
 
 /// `unit_length` is that of the camera's unit in the frame of its glTF node: distances are in it.
-pub(crate) fn camera(json: &mut Json, camera: &Camera, unit_length: f64) {
+/// `made_far` is a far plane that is none of Inventor's, but made of the scene's bounds.
+pub(crate) fn camera(json: &mut Json, camera: &Camera, unit_length: f64, made_far: Option<f64>) {
     iv(json, |json| {
+        if let Some(far) = made_far {
+            json.key("zfar").f64(far);
+        }
         number(json, "unitLength", unit_length, 1.0);
         number(json, "aspectRatio", camera.aspect_ratio, 1.0);
         number(json, "nearDistance", camera.near_distance, 1.0);
@@ -155,9 +182,9 @@ pub(crate) fn camera(json: &mut Json, camera: &Camera, unit_length: f64) {
     });
 }
 
-/// Classes that say no more than that there is a node.
+/// Classes that say no more than that there is a node, and where.
 fn is_plain_group(class: &str) -> bool {
-    matches!(class, "Separator" | "Group")
+    matches!(class, "Separator" | "Group" | "VRMLGroup" | "VRMLTransform")
 }
 
 /// The class of a node when it says something.
@@ -176,6 +203,7 @@ pub(crate) fn node<'a>(
     json: &mut Json,
     class: Option<&str>,
     notes: impl IntoIterator<Item = &'a str>,
+    link: Option<&Link>,
     text: Option<&Text>,
     scope: Scope,
 ) {
@@ -184,6 +212,9 @@ pub(crate) fn node<'a>(
             json.key("type").str(class);
         }
         json.array_unless_empty("notes", notes, |json, note| json.str(note));
+        if let Some(link) = link {
+            write_link(json, link);
+        }
         if let Some(text) = text {
             json.array_unless_empty("string", &text.strings, |json, line| json.str(line));
             if text.faces_viewer {
@@ -193,6 +224,15 @@ pub(crate) fn node<'a>(
         index(json, "lightSet", scope.light_set);
         index(json, "environment", scope.environment);
     });
+}
+
+/// Whether there are other light sets than one of all lights.
+pub(crate) fn has_light_sets(scene: &Scene) -> bool {
+    let all = (0..scene.lights.len() as u32).map(LightId);
+    match scene.light_sets.as_slice() {
+        [only] => !only.iter().copied().eq(all),
+        _ => true,
+    }
 }
 
 pub(crate) fn scene(json: &mut Json, scene: &Scene, source: Option<&str>) {
@@ -226,15 +266,24 @@ pub(crate) fn scene(json: &mut Json, scene: &Scene, source: Option<&str>) {
                 }
             });
         });
-        let all = (0..scene.lights.len() as u32).map(LightId);
-        let scoped = match scene.light_sets.as_slice() {
-            [only] => !only.iter().copied().eq(all),
-            _ => true,
-        };
+        let scoped = has_light_sets(scene);
         let light_sets = scene.light_sets.iter().filter(|_| scoped);
         json.array_unless_empty("lightSets", light_sets, |json, set| {
             json.array(|json| set.iter().for_each(|light| json.u64(light.0.into())));
         });
+    });
+}
+
+fn write_link(json: &mut Json, link: &Link) {
+    json.key("link").object(|json| {
+        json.array_unless_empty("url", &link.urls, |json, url| json.str(url));
+        if !link.description.is_empty() {
+            json.key("description").str(&link.description);
+        }
+        json.array_unless_empty("parameter", &link.parameters, |json, p| json.str(p));
+        if link.tells_point {
+            json.key("map").str("POINT");
+        }
     });
 }
 

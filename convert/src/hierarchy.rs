@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use geometry::transform::{Decomposition, Trs, decompose};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use scenegraph::scene::{NodeId, Placement, Scene, Text};
+use scenegraph::scene::{Link, NodeId, Placement, Scene, Text};
 
 use crate::extras::Scope;
 use crate::formats::Formats;
@@ -56,6 +56,7 @@ struct Draft<'s> {
     name: Option<&'s str>,
     class: Option<&'s str>,
     notes: Vec<&'s str>,
+    link: Option<&'s Link>,
     scope: Scope,
     text: Option<&'s Text>,
     parent_from_local: DAffine3,
@@ -185,6 +186,7 @@ impl<'s> Hierarchy<'s> {
             name: first.name,
             class: first.class,
             notes: Vec::new(),
+            link: None,
             text: None,
             scope: first.scope,
             // It stands for no single place of the source.
@@ -294,7 +296,7 @@ impl<'s> Hierarchy<'s> {
             json.array_unless_empty("children", first_child..queue.len(), Json::usize);
             if with_extras && inner_rotation.is_none() {
                 let notes = node.notes.iter().copied();
-                extras::node(json, node.class, notes, node.text, node.scope);
+                extras::node(json, node.class, notes, node.link, node.text, node.scope);
             }
         });
     }
@@ -349,6 +351,7 @@ impl<'s> Builder<'s> {
             name: name.as_deref(),
             class: None,
             notes: Vec::new(),
+            link: None,
             scope: Scope::default(),
             text: None,
             parent_from_local,
@@ -431,6 +434,7 @@ impl<'s> Builder<'s> {
             name: node.name.as_deref(),
             class: extras::notable_class(&node.class),
             notes: node.notes.iter().map(|note| &**note).collect(),
+            link: node.link.as_deref(),
             scope: Scope::default(),
             text: None,
             parent_from_local: node.parent_from_local,
@@ -466,6 +470,7 @@ impl<'s> Draft<'s> {
                 // Viewers turn the faces of a whole batch by its node alone.
                 if self.children.is_empty()
                     && self.notes.is_empty()
+                    && self.link.is_none()
                     && self.text.is_none()
                     && self.parent_from_local.matrix3.determinant() > 0.0 =>
             {
@@ -482,6 +487,7 @@ impl Draft<'_> {
         if both(self.name.is_some(), child.name.is_some())
             || both(self.class.is_some(), child.class.is_some())
             || both(!self.notes.is_empty(), !child.notes.is_empty())
+            || both(self.link.is_some(), child.link.is_some())
         {
             return false;
         }
@@ -504,6 +510,7 @@ impl<'s> Draft<'s> {
         self.parent_from_local = group.parent_from_local * self.parent_from_local;
         self.name = group.name.or(self.name);
         self.class = group.class.or(self.class);
+        self.link = group.link.or(self.link);
         if self.notes.is_empty() {
             self.notes = group.notes;
         }

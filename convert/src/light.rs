@@ -11,7 +11,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DAffine3, DVec3};
-use scenegraph::scene::{Environment, Light, LightKind};
+use scenegraph::scene::{Beam, Environment, Light, LightKind};
 
 use crate::bounds::Bounds;
 use crate::color::{linear_rgb_from_srgb, unit};
@@ -33,7 +33,7 @@ const INNER_CONE_SHARE: f64 = 0.999;
 /// Narrowest cone, radians.
 const MIN_CONE_RAD: f64 = 1e-4;
 /// Of green light (SI, `K_cd`), as converters take it for all light.
-const LUMEN_PER_WATT: f64 = 683.0;
+pub(crate) const LUMEN_PER_WATT: f64 = 683.0;
 /// Viewers hold f32.
 const MAX_INTENSITY: f64 = 1e30;
 
@@ -57,13 +57,14 @@ pub(crate) fn frame(kind: &LightKind, parent_from_local: &DAffine3) -> DAffine3 
     }
 }
 
+/// With `extras`, Inventor's own values are in it, and the light's number if sets call it by that.
 pub(crate) fn write(
     json: &mut Json,
     light: &Light,
     environment: &Environment,
     bounds: Option<&Bounds>,
     unit: Lights,
-    with_extras: bool,
+    extras: Option<Option<usize>>,
 ) {
     json.object(|json| {
         json.key("type").str(match light.kind {
@@ -75,11 +76,8 @@ pub(crate) fn write(
         if color_linear != [1.0; 3] {
             json.key("color").f32s(&color_linear.map(|v| v as f32));
         }
-        let factor = match unit {
-            Lights::Unitless => 1.0,
-            Lights::Physical => LUMEN_PER_WATT,
-        };
-        let strength = (intensity(light, environment, bounds) * factor).min(MAX_INTENSITY);
+        let distance = reference_distance(light, environment.attenuation, bounds);
+        let strength = strength(light.intensity, environment.attenuation, distance, unit);
         if strength != 1.0 {
             json.key("intensity").f32(strength as f32);
         }
@@ -89,33 +87,27 @@ pub(crate) fn write(
             ..
         } = light.kind
         {
-            let (inner, outer) = cone(drop_off_rate, cut_off_angle_rad);
-            // glTF's inner cone is of full strength, as that of a beam is.
-            let inner = light.beam.map_or(inner, |beam| {
-                let narrowest = outer * INNER_CONE_SHARE;
-                beam.inner_angle_rad.clamp(0.0, narrowest)
-            });
+            let (inner, outer) = cone(drop_off_rate, cut_off_angle_rad, light.beam);
             json.key("spot").object(|json| {
                 json.key("innerConeAngle").f64(inner);
                 json.key("outerConeAngle").f64(outer);
             });
         }
-        if with_extras {
-            extras::light(json, light, environment);
+        if let Some(number) = extras {
+            extras::light(json, light, environment, number, distance);
         }
     });
 }
 
-/// Lux of a directional light, candela of the others.
-fn intensity(light: &Light, environment: &Environment, bounds: Option<&Bounds>) -> f64 {
-    let location = match light.kind {
-        LightKind::Directional { .. } => None,
-        LightKind::Point { location } | LightKind::Spot { location, .. } => Some(location),
-    };
-    let at_reference = location.map_or(1.0, |location| {
-        let p_in_world = light.placement.world_from_local.transform_point3(location);
-        let [a, b, c] = environment.attenuation;
-        let d = reference_distance(environment.attenuation, p_in_world, bounds);
+/// glTF's strength of a light of Inventor's: lux of a directional light, candela of one that agrees
+/// with Inventor's at a distance.
+pub(crate) fn strength(
+    intensity: f64,
+    [a, b, c]: [f64; 3],
+    reference_distance: Option<f64>,
+    unit: Lights,
+) -> f64 {
+    let at_reference = reference_distance.map_or(1.0, |d| {
         let divisor = a * d * d + b * d + c;
         if divisor > 0.0 {
             d * d / divisor
@@ -123,25 +115,34 @@ fn intensity(light: &Light, environment: &Environment, bounds: Option<&Bounds>) 
             d * d
         }
     });
-    let intensity = PI * light.intensity.max(0.0) * at_reference;
-    if intensity.is_nan() {
+    let factor = match unit {
+        Lights::Unitless => 1.0,
+        Lights::Physical => LUMEN_PER_WATT,
+    };
+    let strength = PI * intensity.max(0.0) * at_reference * factor;
+    if strength.is_nan() {
         0.0
     } else {
-        intensity.min(MAX_INTENSITY)
+        strength.min(MAX_INTENSITY)
     }
 }
 
-/// d_ref, in the world.
-fn reference_distance([a, b, c]: [f64; 3], p_in_world: DVec3, bounds: Option<&Bounds>) -> f64 {
+/// d_ref, in the world; `None` for a directional light.
+fn reference_distance(light: &Light, [a, b, c]: [f64; 3], bounds: Option<&Bounds>) -> Option<f64> {
+    let location = match light.kind {
+        LightKind::Directional { .. } => return None,
+        LightKind::Point { location } | LightKind::Spot { location, .. } => location,
+    };
+    let p_in_world = light.placement.world_from_local.transform_point3(location);
     let centre = distance_to_centre(p_in_world, bounds);
     // The positive root of a d^2 + b d - c, in the form that does not cancel.
     let half = 2.0 * c / (b + (b * b + 4.0 * a * c).sqrt());
-    if half >= 0.0 {
+    Some(if half >= 0.0 {
         half.clamp(NEAREST_SHARE * centre, centre)
     } else {
         // Factors that are no attenuation.
         centre
-    }
+    })
 }
 
 fn distance_to_centre(p_in_world: DVec3, bounds: Option<&Bounds>) -> f64 {
@@ -159,8 +160,9 @@ fn distance_to_centre(p_in_world: DVec3, bounds: Option<&Bounds>) -> f64 {
     }
 }
 
-/// Inner and outer half angles: where cos^e has fallen to nine tenths, and the cut-off.
-fn cone(drop_off_rate: f64, cut_off_angle_rad: f64) -> (f64, f64) {
+/// Inner and outer half angles: where cos^e has fallen to nine tenths, and the cut-off. The inner
+/// cone is of full strength in glTF, as that of a beam is.
+pub(crate) fn cone(drop_off_rate: f64, cut_off_angle_rad: f64, beam: Option<Beam>) -> (f64, f64) {
     let outer = if cut_off_angle_rad > MIN_CONE_RAD {
         cut_off_angle_rad.min(FRAC_PI_2)
     } else {
@@ -172,5 +174,9 @@ fn cone(drop_off_rate: f64, cut_off_angle_rad: f64) -> (f64, f64) {
     } else {
         FRAC_PI_2
     };
-    (inner.min(outer * INNER_CONE_SHARE), outer)
+    let widest = outer * INNER_CONE_SHARE;
+    let inner = beam.map_or(inner.min(widest), |beam| {
+        beam.inner_angle_rad.clamp(0.0, widest)
+    });
+    (inner, outer)
 }

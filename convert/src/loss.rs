@@ -119,7 +119,7 @@ impl LossKind {
                 "glTF light falls with the square of the distance; it is right where the source's \
                  light has fallen to half, at least a quarter of the way to the centre of the \
                  scene's bounds and at most there. The factors are in the light's \
-                 `extras.iv.attenuation`",
+                 `extras.iv.attenuation`, that distance in `extras.iv.referenceDistance`",
             ),
             Self::SpotDropOff => (
                 "spot-drop-off",
@@ -256,7 +256,9 @@ pub fn losses_markdown() -> String {
          half height and its height agree, its foot is wider.\n\
          - What a surface mirrors it cannot scatter: a light diffuse colour with a strong specular \
          one is darkened, because no glTF factor exceeds 1. A vertex colour is written as it is, \
-         so it is darkened by every highlight.\n",
+         so it is darkened by every highlight.\n\
+         - The link of a `WWWAnchor` or `Anchor` cannot be followed in glTF: addresses, description, \
+         parameters and `map` are in the node's `extras.iv.link`.\n",
     );
     out
 }

@@ -98,6 +98,19 @@ pub enum Materials {
     Unlit,
 }
 
+impl Materials {
+    pub(crate) const ALL: [Self; 3] = [Self::Fidelity, Self::Simple, Self::Unlit];
+
+    /// As the command has it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Fidelity => "fidelity",
+            Self::Simple => "simple",
+            Self::Unlit => "unlit",
+        }
+    }
+}
+
 /// The unit of lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Lights {
@@ -105,6 +118,18 @@ pub enum Lights {
     Unitless,
     /// Lux and candela of Inventor's intensity taken for watts: 683 lumen each.
     Physical,
+}
+
+impl Lights {
+    pub(crate) const ALL: [Self; 2] = [Self::Unitless, Self::Physical];
+
+    /// As the command has it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Unitless => "unitless",
+            Self::Physical => "physical",
+        }
+    }
 }
 
 /// The format of images.

@@ -17,7 +17,7 @@ use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_textur
 use crate::prepare::Prepared;
 use crate::remarks::Remarks;
 use crate::texture::{TextureLoader, Textures};
-use crate::{Container, Error, Materials, Options, Report, Up, binary, camera, extras, light};
+use crate::{Container, Error, Materials, Options, Report, binary, camera, extras, light};
 
 /// A conversion with everything decided and measured: which materials, meshes, nodes and images
 /// there are, and where each number goes.
@@ -146,7 +146,7 @@ impl<'s> Plan<'s> {
                     .str(concat!("Ivory ivconvert ", env!("CARGO_PKG_VERSION")));
                 if with_extras {
                     let source = source.filter(|_| self.hierarchy.is_empty());
-                    extras::asset(json, self.options.up == Up::Z, source);
+                    extras::asset(json, &self.options, source);
                 }
             });
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
@@ -184,17 +184,15 @@ impl<'s> Plan<'s> {
         }
         json.key("extensions").object(|json| {
             json.key("KHR_lights_punctual").object(|json| {
-                json.array_unless_empty("lights", &self.scene.lights, |json, light| {
+                let in_sets = extras::has_light_sets(self.scene);
+                let lights = self.scene.lights.iter().enumerate();
+                json.array_unless_empty("lights", lights, |json, (number, light)| {
                     let environment = &self.scene.environments[light.environment.index()];
                     let bounds = self.bounds.as_ref();
-                    light::write(
-                        json,
-                        light,
-                        environment,
-                        bounds,
-                        self.options.lights,
-                        self.options.extras,
-                    );
+                    let (unit, extras) = (self.options.lights, self.options.extras);
+                    let number = in_sets.then_some(number);
+                    let extras = extras.then_some(number);
+                    light::write(json, light, environment, bounds, unit, extras);
                 });
             });
         });

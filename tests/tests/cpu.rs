@@ -7,10 +7,12 @@ mod cpu {
     mod corpus;
     mod determinism;
     mod edited;
+    mod edited_values;
     mod glb;
     mod gltf_in;
     mod includes;
     mod large;
+    mod links;
     mod measures;
     mod models;
     mod nurbs;

@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use iv_parser::Header;
+use rustc_hash::FxHashMap;
 use scenegraph::{FileLoader, LoadError, Loader};
 use unpack::{Archive, Entry, Error, Format, clean_name};
 
@@ -21,15 +22,27 @@ pub struct ArchiveLoader {
     /// The archive's own path, canonical.
     path: PathBuf,
     folders: FileLoader,
+    /// Numbers of entries by name, the first of equals: as it is, in small letters, and the last part
+    /// of it in small letters.
+    names: [FxHashMap<String, usize>; 3],
 }
 
 impl ArchiveLoader {
     /// Over an archive that lies at the canonical path `path`.
     pub fn new(archive: Archive, path: PathBuf, folders: FileLoader) -> Self {
+        let mut names: [FxHashMap<String, usize>; 3] = Default::default();
+        for (i, entry) in archive.entries.iter().enumerate() {
+            let small = entry.name.to_ascii_lowercase();
+            let last = last_part(&small).to_owned();
+            for (names, name) in names.iter_mut().zip([entry.name.clone(), small, last]) {
+                names.entry(name).or_insert(i);
+            }
+        }
         Self {
             archive,
             path,
             folders,
+            names,
         }
     }
 
@@ -40,9 +53,10 @@ impl ArchiveLoader {
 
     /// The entry called so: by the whole name, or as Windows would find it.
     fn entry(&self, name: &str) -> Option<&Entry> {
-        let entries = &self.archive.entries;
-        let exact = entries.iter().find(|entry| entry.name == name);
-        exact.or_else(|| entries.iter().find(|e| e.name.eq_ignore_ascii_case(name)))
+        let [exact, small, _] = &self.names;
+        let found = exact.get(name);
+        let found = found.or_else(|| small.get(&name.to_ascii_lowercase()));
+        self.archive.entries.get(*found?)
     }
 
     /// The entry that a file in the folder `inside` of the archive calls `name`: beside it, from
@@ -53,7 +67,7 @@ impl ArchiveLoader {
             [letter, b':', ..] if letter.is_ascii_alphabetic() => &name[2..],
             _ => &name,
         };
-        let last = name.rsplit('/').next().unwrap_or_default();
+        let last = last_part(name);
         let beside =
             |name: &str| clean_name(format!("{inside}/{name}").trim_start_matches('/')).ok();
         let candidates = [beside(name), clean_name(name).ok(), beside(last)];
@@ -62,11 +76,9 @@ impl ArchiveLoader {
             .flatten()
             .find_map(|name| self.entry(&name));
         found.or_else(|| {
-            let has_last = |entry: &&Entry| {
-                let own = entry.name.rsplit('/').next().unwrap_or_default();
-                own.eq_ignore_ascii_case(last)
-            };
-            self.archive.entries.iter().find(has_last)
+            let [.., by_last] = &self.names;
+            let found = by_last.get(&last.to_ascii_lowercase())?;
+            self.archive.entries.get(*found)
         })
     }
 }
@@ -102,6 +114,10 @@ impl Loader for ArchiveLoader {
     fn unpack_limits(&self) -> unpack::Limits {
         self.folders.unpack_limits()
     }
+}
+
+fn last_part(name: &str) -> &str {
+    name.rsplit('/').next().unwrap_or_default()
 }
 
 /// The model of an archive, and how many others could have been meant.

@@ -39,6 +39,7 @@ pub(crate) fn turn(scene: &mut Scene, options: &Options) {
         name: None,
         class: Arc::from("Separator"),
         notes: Vec::new(),
+        link: None,
         parent_from_local: world_from_model,
         pos: SourcePos::default(),
     };

@@ -8,6 +8,9 @@ use scenegraph::scene::{Camera, Placement, Projection, ViewportMapping};
 
 use super::document::ExactCamera;
 use super::iv::Iv;
+use super::made_by::MadeBy;
+use crate::alike::alike_in_size;
+use crate::camera::{positive_or, written_range};
 
 /// Inventor's `nearDistance`, `farDistance` and `focalDistance`: ones that nobody has chosen.
 const DEFAULT_NEAR: f64 = 1.0;
@@ -20,7 +23,7 @@ const DEFAULT_HEIGHT: f64 = 2.0;
 pub(crate) fn camera(
     source: &JsonCamera,
     exact: &ExactCamera,
-    by_ivory: bool,
+    made_by: MadeBy,
     placement: Placement,
 ) -> Option<Camera> {
     let (projection, aspect, near, far) = match (&exact.perspective, &exact.orthographic) {
@@ -53,27 +56,53 @@ pub(crate) fn camera(
     if let Some(far) = far {
         (camera.near_distance, camera.far_distance) = (near, far);
     }
-    let iv = Iv::of(&source.extras).or_else(|| by_ivory.then(Iv::default));
-    if let Some(iv) = iv {
-        take_values(&mut camera, &iv);
-    }
-    Some(camera)
+    Some(match made_by.values(&source.extras) {
+        Some(iv) => settled(&camera, &iv, (near, far)),
+        None => camera,
+    })
 }
 
-/// Inventor's own values. Distances are in units of the camera's first frame, which the writer
-/// measures.
-fn take_values(camera: &mut Camera, iv: &Iv) {
+/// With Inventor's own values, but for what was edited since. Distances are in units of the camera's
+/// first frame, which the writer measures. `range` is the file's.
+fn settled(shown: &Camera, iv: &Iv, (near, far): (f64, Option<f64>)) -> Camera {
     let unit = iv.number("unitLength", 1.0);
+    let mut camera = shown.clone();
     camera.aspect_ratio = iv.number("aspectRatio", 1.0);
-    let distance = |key, default| finite_or(iv.number(key, default) * unit, default);
-    camera.near_distance = distance("nearDistance", DEFAULT_NEAR);
-    camera.far_distance = distance("farDistance", DEFAULT_FAR);
-    camera.focal_distance = distance("focalDistance", DEFAULT_FOCAL);
+    camera.near_distance = iv.number("nearDistance", DEFAULT_NEAR);
+    camera.far_distance = iv.number("farDistance", DEFAULT_FAR);
     camera.viewport_mapping = match iv.word("viewportMapping") {
         Some("CROP_VIEWPORT_FILL_FRAME") => ViewportMapping::CropViewport,
         Some("LEAVE_ALONE") => ViewportMapping::LeaveAlone,
         _ => ViewportMapping::AdjustCamera,
     };
+    let is_perspective = matches!(camera.projection, Projection::Perspective { .. });
+    let says_none = is_perspective && camera.viewport_mapping == ViewportMapping::AdjustCamera;
+    let aspect = match says_none {
+        true => 1.0,
+        false => positive_or(camera.aspect_ratio, 1.0),
+    };
+    if !alike_in_size(aspect, shown.aspect_ratio) {
+        camera.aspect_ratio = shown.aspect_ratio;
+    }
+    let same_range = match (written_range(&camera, unit), far) {
+        (Some((n, f)), Some(far)) => alike_in_size(n, near) && alike_in_size(f, far),
+        (Some(_), None) => false,
+        // Made of the scene's bounds. Inventor has no near plane without a far one.
+        (None, None) => true,
+        (None, Some(far)) => {
+            let made = iv.number("zfar", f64::NAN);
+            !is_perspective && near == 0.0 && alike_in_size(far, made)
+        }
+    };
+    let distance = |own: f64, default| finite_or(own * unit, default);
+    if same_range {
+        camera.near_distance = distance(camera.near_distance, DEFAULT_NEAR);
+        camera.far_distance = distance(camera.far_distance, DEFAULT_FAR);
+    } else {
+        (camera.near_distance, camera.far_distance) = (shown.near_distance, shown.far_distance);
+    }
+    camera.focal_distance = distance(iv.number("focalDistance", DEFAULT_FOCAL), DEFAULT_FOCAL);
+    camera
 }
 
 fn finite_or(value: f64, otherwise: f64) -> f64 {

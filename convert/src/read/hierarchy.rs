@@ -3,6 +3,7 @@
 //! A node without children that holds one item and says nothing else is that item; any other is a
 //! group. A node must have one parent and is visited once, so the walk ends.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DAffine3;
@@ -22,6 +23,7 @@ use super::error::ReadError;
 use super::frame::{copies, parent_from_local};
 use super::iv::Iv;
 use super::light::Lamp;
+use super::made_by::MadeBy;
 use super::material::Materials;
 use super::mesh::Meshes;
 
@@ -32,7 +34,7 @@ const GROUP_CLASS: &str = "Separator";
 pub(crate) struct Walk<'a> {
     pub(crate) document: &'a Document<'a>,
     pub(crate) buffers: &'a Buffers<'a>,
-    pub(crate) by_ivory: bool,
+    pub(crate) made_by: MadeBy,
     pub(crate) meshes: Meshes<'a>,
     pub(crate) materials: Materials<'a>,
     pub(crate) budget: Budget,
@@ -44,6 +46,8 @@ pub(crate) struct Walk<'a> {
     pub(crate) texts: Vec<Text>,
     /// With the number of each in the file.
     pub(crate) lights: Vec<(usize, Light)>,
+    /// By which number light sets call each; `None` for a light that came after them.
+    pub(crate) numbers_in_sets: BTreeMap<usize, Option<usize>>,
     pub(crate) cameras: Vec<(usize, Camera)>,
     classes: Vec<Arc<str>>,
     visited: Vec<bool>,
@@ -68,14 +72,14 @@ impl<'a> Walk<'a> {
     pub(crate) fn new(
         document: &'a Document<'a>,
         buffers: &'a Buffers<'a>,
-        by_ivory: bool,
+        made_by: MadeBy,
         materials: Materials<'a>,
         budget: Budget,
     ) -> Self {
         Self {
             document,
             buffers,
-            by_ivory,
+            made_by,
             meshes: Meshes::new(document, buffers),
             materials,
             budget,
@@ -85,6 +89,7 @@ impl<'a> Walk<'a> {
             instances: Vec::new(),
             texts: Vec::new(),
             lights: Vec::new(),
+            numbers_in_sets: BTreeMap::new(),
             cameras: Vec::new(),
             classes: vec![GROUP_CLASS.into()],
             visited: vec![false; document.root.nodes.len()],
@@ -146,7 +151,8 @@ impl<'a> Walk<'a> {
         let notes: Vec<Arc<str>> = (iv.list("notes").iter())
             .filter_map(|note| Some(note.as_str()?.into()))
             .collect();
-        let says_more = !notes.is_empty() || iv.word("type").is_some();
+        let link = iv.link().map(Arc::new);
+        let says_more = !notes.is_empty() || link.is_some() || iv.word("type").is_some();
         // The words of a text belong to one shape; of several it is not known to which.
         if let ([Item::Shape(..)], [_]) = (&*items, &*copies) {
             self.text(&iv);
@@ -176,6 +182,7 @@ impl<'a> Walk<'a> {
             name: placement.name.take(),
             class,
             notes,
+            link,
             parent_from_local,
             pos: SourcePos::default(),
         });
@@ -222,7 +229,7 @@ impl<'a> Walk<'a> {
             let index = light.light;
             let missing = ReadError::broken("light", index.value(), "it does not exist");
             let light = document.root.get(index).ok_or(missing)?;
-            let lamp = Lamp::new(light, self.by_ivory);
+            let lamp = Lamp::new(light, self.made_by);
             items.extend(lamp.map(|lamp| Item::Light(index.value(), lamp)));
         }
         items.extend(source.camera.map(|camera| Item::Camera(camera.value())));
@@ -279,6 +286,8 @@ impl<'a> Walk<'a> {
                 });
             }
             Item::Light(number, lamp) => {
+                let in_sets = lamp.is_in_sets.map(|own| own.unwrap_or(number));
+                self.numbers_in_sets.insert(number, in_sets);
                 let light = lamp.placed(placement, &mut self.environments);
                 self.lights.push((number, light));
             }
@@ -287,7 +296,7 @@ impl<'a> Walk<'a> {
                 let missing = ReadError::broken("camera", number, "it does not exist");
                 let none = ExactCamera::default();
                 let exact = self.document.exact.cameras.get(number).unwrap_or(&none);
-                let made = camera(found.ok_or(missing)?, exact, self.by_ivory, placement);
+                let made = camera(found.ok_or(missing)?, exact, self.made_by, placement);
                 self.cameras.extend(made.map(|camera| (number, camera)));
             }
         }

@@ -2,9 +2,10 @@
 //! writer left out equals Inventor's default.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use gltf::json::Extras;
-use scenegraph::scene::{Beam, Environment, Fog, FogType};
+use scenegraph::scene::{Beam, Environment, Fog, FogType, Link};
 use serde_json::{Map, Value};
 
 /// The values of one object.
@@ -64,6 +65,24 @@ impl Iv {
     pub(crate) fn objects(&self, key: &str) -> impl Iterator<Item = Self> {
         let objects = self.list(key).iter().filter_map(Value::as_object);
         objects.map(|object| Self(object.clone()))
+    }
+
+    /// Texts of a list, others left out.
+    fn texts(&self, key: &str) -> Vec<Arc<str>> {
+        let texts = self.list(key).iter().filter_map(Value::as_str);
+        texts.map(Into::into).collect()
+    }
+
+    /// Where a node leads, if anywhere.
+    pub(crate) fn link(&self) -> Option<Link> {
+        let link = Self(self.0.get("link")?.as_object()?.clone());
+        let urls = link.texts("url");
+        (!urls.is_empty()).then(|| Link {
+            urls,
+            description: link.word("description").unwrap_or_default().into(),
+            parameters: link.texts("parameter"),
+            tells_point: link.word("map") == Some("POINT"),
+        })
     }
 
     /// The values as those of a spot light's beam, if they are.

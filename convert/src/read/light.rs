@@ -11,8 +11,14 @@ use gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spo
 use gltf::json::validation::Checked;
 use scenegraph::scene::{Beam, Environment, EnvironmentId, Light, LightKind, Placement};
 
+use serde_json::Value;
+
 use super::iv::Iv;
-use crate::color::{srgb_from_linear, unit};
+use super::made_by::MadeBy;
+use crate::Lights;
+use crate::alike::{alike_in_size, all_alike};
+use crate::color::{linear_rgb_from_srgb, srgb_from_linear, unit};
+use crate::light::{LUMEN_PER_WATT, cone as written_cone, strength};
 
 /// What the attenuation of glTF's light is in an `Environment`.
 const INVERSE_SQUARE: [f64; 3] = [1.0, 0.0, 0.0];
@@ -31,14 +37,16 @@ pub(crate) struct Lamp {
     intensity: f64,
     attenuation: [f64; 3],
     beam: Option<Beam>,
+    /// By which number light sets call it, if not by that in the file; `None` for a light that came
+    /// after them.
+    pub(crate) is_in_sets: Option<Option<usize>>,
     /// Its environment, if the file says.
     pub(crate) environment: Option<usize>,
 }
 
 impl Lamp {
     /// `None` for a light of an unknown type, or one that is off.
-    pub(crate) fn new(source: &JsonLight, by_ivory: bool) -> Option<Self> {
-        let iv = Iv::of(&source.extras).or_else(|| by_ivory.then(Iv::default));
+    pub(crate) fn new(source: &JsonLight, made_by: MadeBy) -> Option<Self> {
         let spot = source.spot.clone().unwrap_or_default();
         let direction = DVec3::NEG_Z;
         let location = DVec3::ZERO;
@@ -49,13 +57,7 @@ impl Lamp {
             Type::Directional => LightKind::Directional { direction },
             Type::Point => LightKind::Point { location },
             Type::Spot => {
-                let (drop_off_rate, cut_off_angle_rad) = match &iv {
-                    Some(iv) => (
-                        iv.number("dropOffRate", 0.0),
-                        iv.number("cutOffAngle", FRAC_PI_4),
-                    ),
-                    None => cone(&spot),
-                };
+                let (drop_off_rate, cut_off_angle_rad) = cone(&spot);
                 LightKind::Spot {
                     location,
                     direction,
@@ -66,24 +68,65 @@ impl Lamp {
         };
         let directional = matches!(kind, LightKind::Directional { .. });
         let default = Environment::default().attenuation;
-        Some(match iv {
-            Some(iv) => Self {
-                kind,
-                color_srgb: iv.triple("color", [1.0; 3]),
-                intensity: iv.number("intensity", 1.0),
-                attenuation: iv.triple("attenuation", default),
-                beam: iv.beam(),
-                environment: iv.index("environment"),
-            },
-            None => Self {
-                kind,
-                color_srgb: source.color.map(|v| srgb_from_linear(v.into())),
-                intensity: f64::from(source.intensity.clamp(0.0, f32::MAX)) / PI,
-                attenuation: if directional { default } else { INVERSE_SQUARE },
-                beam: None,
-                environment: None,
-            },
-        })
+        let mut lamp = Self {
+            kind,
+            color_srgb: source.color.map(|v| srgb_from_linear(v.into())),
+            intensity: f64::from(source.intensity.clamp(0.0, f32::MAX)) / PI,
+            attenuation: if directional { default } else { INVERSE_SQUARE },
+            beam: None,
+            environment: None,
+            is_in_sets: Iv::of(&source.extras).map(|iv| iv.index("number")),
+        };
+        if let Some(iv) = made_by.values(&source.extras) {
+            lamp.settle(&iv, source, &spot, made_by.lights);
+        }
+        Some(lamp)
+    }
+
+    /// Takes Inventor's own values, but for those that were edited since.
+    fn settle(&mut self, iv: &Iv, source: &JsonLight, spot: &Spot, unit: Lights) {
+        let color_srgb = iv.triple("color", [1.0; 3]);
+        let written = linear_rgb_from_srgb(color_srgb).map(srgb_from_linear);
+        if all_alike(&written, &self.color_srgb) {
+            self.color_srgb = color_srgb;
+        }
+        let directional = matches!(self.kind, LightKind::Directional { .. });
+        let distance = iv.value("referenceDistance").and_then(Value::as_f64);
+        // Else it was of another type.
+        if directional == distance.is_none() {
+            self.attenuation = iv.triple("attenuation", Environment::default().attenuation);
+            self.environment = iv.index("environment");
+            let strength = |intensity| strength(intensity, self.attenuation, distance, unit);
+            let (own, shown) = (iv.number("intensity", 1.0), f64::from(source.intensity));
+            self.intensity = if alike_in_size(strength(own), shown) {
+                own
+            } else {
+                finite_or_zero(shown.max(0.0) / strength(1.0))
+            };
+        } else if unit == Lights::Physical {
+            self.intensity /= LUMEN_PER_WATT;
+        }
+        if let LightKind::Spot {
+            drop_off_rate,
+            cut_off_angle_rad,
+            ..
+        } = &mut self.kind
+        {
+            let rate = iv.number("dropOffRate", 0.0);
+            let cut_off_rad = iv.number("cutOffAngle", FRAC_PI_4);
+            let beam = iv.beam();
+            let (inner_rad, outer_rad) = written_cone(rate, cut_off_rad, beam);
+            let shown = [spot.inner_cone_angle, spot.outer_cone_angle].map(f64::from);
+            if alike_in_size(inner_rad, shown[0]) && alike_in_size(outer_rad, shown[1]) {
+                (*drop_off_rate, *cut_off_angle_rad) = (rate, cut_off_rad);
+                self.beam = beam;
+            } else {
+                self.beam = beam.map(|beam| Beam {
+                    inner_angle_rad: shown[0].clamp(0.0, FRAC_PI_2),
+                    ..beam
+                });
+            }
+        }
     }
 
     /// The light, in the environment of its own if the file says, else in one with its attenuation,
@@ -109,6 +152,10 @@ impl Lamp {
             environment: EnvironmentId(environment as u32),
         }
     }
+}
+
+fn finite_or_zero(value: f64) -> f64 {
+    if value.is_finite() { value } else { 0.0 }
 }
 
 /// Drop-off rate and cut-off angle: the inverse of what the writer makes of them. Where the inner

@@ -1,6 +1,6 @@
 //! glTF's materials as Inventor's.
 //!
-//! Where the file has Inventor's own values, those. Else the inverse of what the writer does:
+//! Where the file has Inventor's own values, those (see `settled`). Else the inverse of what the writer does:
 //! with alpha = roughness^2, c2 = (1 - sqrt(2) alpha^2) / (1 - alpha^2) gives the exponent
 //! -2 / log2(c2) of the cosine power that is as wide as the GGX lobe, and ks = F0 / (4 alpha^2)
 //! its height; both are clamped to 0 to 1. F0 is that of the dielectric part and of the metallic
@@ -14,18 +14,23 @@ use std::f64::consts::SQRT_2;
 use gltf::json::Index;
 use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::material::{AlphaMode, Material as JsonMaterial};
+use gltf::json::mesh::Semantic;
 use gltf::json::texture::Info;
 use gltf::json::validation::Checked;
 use iv_parser::SourcePos;
-use scenegraph::scene::{Faces, LightModel, Material, MaterialId};
+use scenegraph::scene::{Faces, LightModel, Material, MaterialId, Topology};
 
 use super::budget::Budget;
 use super::buffers::Buffers;
 use super::document::Document;
 use super::error::ReadError;
 use super::iv::Iv;
+use super::made_by::MadeBy;
 use super::mesh::{UvTransform, Wants};
+use super::settled::{Mixing, Use, settled};
 use super::texture::Textures;
+use super::topology::topology;
+use crate::Materials as Choice;
 use crate::color::{srgb_from_linear, unit};
 
 /// Share of Inventor's default ambient colour in its diffuse one: 0.2 of 0.8.
@@ -36,8 +41,9 @@ const DEFAULT_F0: f64 = 0.04;
 /// The materials of a file; those of the scene are made when something shows them.
 pub(crate) struct Materials<'a> {
     document: &'a Document<'a>,
-    /// Whether values of Inventor's that are not there are defaults.
-    by_ivory: bool,
+    made_by: MadeBy,
+    /// What each is on.
+    uses: Vec<Use>,
     looks: Vec<Option<Look>>,
     pub(crate) textures: Textures<'a>,
     pub(crate) materials: Vec<Material>,
@@ -53,10 +59,11 @@ struct Look {
 }
 
 impl<'a> Materials<'a> {
-    pub(crate) fn new(document: &'a Document<'a>, by_ivory: bool, textures: Textures<'a>) -> Self {
+    pub(crate) fn new(document: &'a Document<'a>, made_by: MadeBy, textures: Textures<'a>) -> Self {
         Self {
             document,
-            by_ivory,
+            made_by,
+            uses: uses(document),
             // The last is that of primitives without one.
             looks: vec![None; document.root.materials.len() + 1],
             textures,
@@ -112,27 +119,42 @@ impl<'a> Materials<'a> {
                 found.ok_or(ReadError::broken("material", number, "it does not exist"))?
             }
         };
-        let by_ivory = self.by_ivory && index.is_some();
-        let textures = &self.textures;
-        Ok(self.looks[number].get_or_insert_with(|| Look::new(source, by_ivory, textures)))
+        let own = match index {
+            Some(_) => self.made_by.values(&source.extras),
+            None => None,
+        };
+        let (textures, on) = (&self.textures, self.uses[number]);
+        let look = self.made_by.materials;
+        let make = || Look::new(source, own, on, look, textures);
+        Ok(self.looks[number].get_or_insert_with(make))
     }
 }
 
 impl Look {
-    fn new(source: &JsonMaterial, by_ivory: bool, textures: &Textures) -> Self {
-        let extensions = source.extensions.as_ref();
-        let unlit = extensions.is_some_and(|e| e.unlit.is_some());
+    fn new(
+        source: &JsonMaterial,
+        own: Option<Iv>,
+        on: Use,
+        look: Choice,
+        textures: &Textures,
+    ) -> Self {
+        let unlit = is_unlit(source);
         let texture = source.pbr_metallic_roughness.base_color_texture.as_ref();
         let number = texture.map(|info| info.index.value());
-        let iv = Iv::of(&source.extras).or_else(|| by_ivory.then(Iv::default));
         let mixed = number.is_some_and(|number| !unlit && textures.is_mixed(number));
         let opaque = matches!(source.alpha_mode, Checked::Valid(AlphaMode::Opaque));
-        let mut material = match &iv {
-            Some(iv) => from_inventor(iv),
-            None => from_gltf(source, unlit),
+        let shown = from_gltf(source);
+        let mixing = match number {
+            None => Mixing::None,
+            Some(number) if textures.is_modulated(number) => Mixing::Multiply,
+            Some(_) => Mixing::Other,
+        };
+        let (mut material, recolored) = match own {
+            Some(iv) => settled(from_inventor(&iv), &shown, on, mixing, look),
+            None => (shown, false),
         };
         material.name = source.name.as_deref().map(Into::into);
-        if mixed {
+        if mixed && !recolored {
             // The image holds the colour, which must not come in twice.
             material.diffuse_srgb = [1.0; 3];
         }
@@ -200,7 +222,35 @@ fn from_inventor(iv: &Iv) -> Material {
     }
 }
 
-fn from_gltf(source: &JsonMaterial, unlit: bool) -> Material {
+fn is_unlit(source: &JsonMaterial) -> bool {
+    let extensions = source.extensions.as_ref();
+    extensions.is_some_and(|e| e.unlit.is_some())
+}
+
+/// What each material is on; the last is for those that are on nothing.
+fn uses(document: &Document) -> Vec<Use> {
+    let mut uses = vec![Use::default(); document.root.materials.len() + 1];
+    let meshes = document.root.meshes.iter();
+    for primitive in meshes.flat_map(|mesh| &mesh.primitives) {
+        let material = primitive.material.map(|index| index.value());
+        let Some(on) = material.and_then(|number| uses.get_mut(number)) else {
+            continue;
+        };
+        let has = |semantic| {
+            let key = Checked::Valid(semantic);
+            primitive.attributes.contains_key(&key)
+        };
+        let flat =
+            matches!(primitive.mode, Checked::Valid(mode) if topology(mode) != Topology::Triangles);
+        on.has_colors |= has(Semantic::Colors(0));
+        on.is_lit |= !flat || has(Semantic::Normals);
+    }
+    uses
+}
+
+/// Without a name and a texture.
+pub(crate) fn from_gltf(source: &JsonMaterial) -> Material {
+    let unlit = is_unlit(source);
     let pbr = &source.pbr_metallic_roughness;
     let [r, g, b, alpha] = pbr.base_color_factor.0.map(f64::from);
     let base = [r, g, b].map(unit);

@@ -2,8 +2,8 @@
 //! ordinary files of others.
 //!
 //! A total function: any bytes give a scene that keeps its guarantees, or an error, in bounded time
-//! and memory. Where `extras.iv` has Inventor's own values they are taken; else glTF's are
-//! approximated, as `material` and `light` say. Left out are animation, skins, morph targets,
+//! and memory. Where `extras.iv` has Inventor's own values they are taken, unless glTF's were edited
+//! since (`made_by`); else glTF's are approximated, as `material` and `light` say. Left out are animation, skins, morph targets,
 //! further maps of a material than the base colour, and images' alpha where a material says it is
 //! opaque.
 
@@ -18,10 +18,12 @@ mod frame;
 mod hierarchy;
 mod iv;
 mod light;
+mod made_by;
 mod material;
 mod mesh;
 mod normals;
 mod objects;
+mod settled;
 mod texture;
 mod topology;
 
@@ -29,6 +31,7 @@ use std::path::Path;
 
 use gltf::json::Index;
 use gltf::json::Node as JsonNode;
+use rustc_hash::FxHashMap;
 use scenegraph::Loader;
 use scenegraph::scene::{Environment, LightId, Scene};
 
@@ -37,6 +40,7 @@ use buffers::Buffers;
 use document::Document;
 use hierarchy::Walk;
 use iv::Iv;
+use made_by::MadeBy;
 use material::Materials;
 use texture::Textures;
 
@@ -75,12 +79,10 @@ pub fn read_gltf(
     let mut budget = Budget::new(*limits);
     budget.grow(bytes.len() as u64)?;
     let buffers = Buffers::new(&document, beside, loader, &mut budget)?;
-    let asset = Iv::of(&document.root.asset.extras);
-    let by_ivory = asset.is_some();
-    let turned = asset.is_some_and(|asset| asset.word("up") == Some("Y"));
+    let made_by = MadeBy::of(&document.root.asset.extras);
     let textures = Textures::new(&document, beside);
-    let materials = Materials::new(&document, by_ivory, textures);
-    let mut walk = Walk::new(&document, &buffers, by_ivory, materials, budget);
+    let materials = Materials::new(&document, made_by, textures);
+    let mut walk = Walk::new(&document, &buffers, made_by, materials, budget);
 
     let shown = Shown::of(&document)?;
     walk.environments = shown
@@ -98,7 +100,10 @@ pub fn read_gltf(
     // The file's order is that of the scene it was written from.
     walk.lights.sort_by_key(|(number, _)| *number);
     walk.cameras.sort_by_key(|(number, _)| *number);
-    let numbers: Vec<usize> = walk.lights.iter().map(|(number, _)| *number).collect();
+    let numbers = walk.lights.iter().map(|(number, _)| *number);
+    let numbers: Vec<Option<usize>> = numbers
+        .map(|number| walk.numbers_in_sets.get(&number).copied().flatten())
+        .collect();
     let light_sets = read_light_sets(light_sets, &numbers, &mut walk.budget)?;
     let mut warnings = left_out(&document);
     warnings.append(&mut walk.materials.textures.warnings);
@@ -119,7 +124,7 @@ pub fn read_gltf(
     Ok(Model {
         scene,
         warnings,
-        is_from_inventor: by_ivory && !turned,
+        is_from_inventor: made_by.ivory && !made_by.turned,
     })
 }
 
@@ -162,26 +167,37 @@ impl Shown {
     }
 }
 
-/// Which lights reach what: the sets of the file, or one of all lights. `numbers` are those of the
-/// scene's lights in the file, ascending; a light that is placed twice counts for both.
+/// Which lights reach what: the sets of the file, or one of all lights. `numbers` are those by which
+/// the sets call the scene's lights; a light that is placed twice counts for both, and one that has
+/// no number came after the sets and reaches all.
 fn read_light_sets(
     sets: &[serde_json::Value],
-    numbers: &[usize],
+    numbers: &[Option<usize>],
     budget: &mut Budget,
 ) -> Result<Vec<Vec<LightId>>, ReadError> {
     let all = || (0..numbers.len() as u32).map(LightId).collect();
     if sets.is_empty() {
         return Ok(vec![all()]);
     }
+    let mut by_number: FxHashMap<u64, Vec<LightId>> = FxHashMap::default();
+    let mut added = Vec::new();
+    for (light, number) in (0..).map(LightId).zip(numbers) {
+        match number {
+            Some(number) => by_number.entry(*number as u64).or_default().push(light),
+            None => added.push(light),
+        }
+    }
     let mut read = Vec::with_capacity(sets.len());
     for set in sets {
         let mut lights = Vec::new();
         let members = set.as_array().map_or(&[][..], Vec::as_slice);
-        for number in members.iter().filter_map(serde_json::Value::as_u64) {
-            let start = numbers.partition_point(|&n| (n as u64) < number);
-            let end = numbers.partition_point(|&n| n as u64 <= number);
-            budget.take(size_of::<LightId>() as u64 * (end - start) as u64)?;
-            lights.extend((start as u32..end as u32).map(LightId));
+        let members = members.iter().filter_map(serde_json::Value::as_u64);
+        for found in members
+            .filter_map(|number| by_number.get(&number))
+            .chain([&added])
+        {
+            budget.take(size_of::<LightId>() as u64 * found.len() as u64)?;
+            lights.extend(found);
         }
         read.push(lights);
     }

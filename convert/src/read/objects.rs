@@ -20,6 +20,7 @@ use super::error::ReadError;
 use super::frame::{copies, parent_from_local};
 use super::iv::Iv;
 use super::light::Lamp;
+use super::made_by::MadeBy;
 use super::material::Materials;
 use super::mesh::Meshes;
 use super::texture::{Textures, image_number, sampling};
@@ -130,7 +131,7 @@ impl Objects {
         budget.grow(bytes.len() as u64)?;
         let buffers = Buffers::new(&document, beside, loader, &mut budget)?;
         let textures = Textures::new(&document, beside);
-        let mut materials = Materials::new(&document, false, textures);
+        let mut materials = Materials::new(&document, MadeBy::OTHERS, textures);
         let mut meshes = Meshes::new(&document, &buffers);
         let root = &document.root;
         let mut objects = Self {
@@ -162,7 +163,7 @@ impl Objects {
             .and_then(|e| e.khr_lights_punctual.as_ref());
         for light in lights.map_or(&[][..], |lights| &lights.lights) {
             let mut environments = Vec::new();
-            let made = Lamp::new(light, false).map(|lamp| {
+            let made = Lamp::new(light, MadeBy::OTHERS).map(|lamp| {
                 let light = lamp.placed(nowhere(), &mut environments);
                 let attenuation = environments.last().map_or([0.0; 3], |e| e.attenuation);
                 (light, attenuation)
@@ -174,7 +175,7 @@ impl Objects {
             let exact = document.exact.cameras.get(i).unwrap_or(&none);
             objects
                 .cameras
-                .push(camera(source, exact, false, nowhere()));
+                .push(camera(source, exact, MadeBy::OTHERS, nowhere()));
         }
         for (i, source) in root.nodes.iter().enumerate() {
             let none = ExactNode::default();

@@ -47,6 +47,13 @@ impl<'a> Textures<'a> {
         })
     }
 
+    /// Whether the image multiplies the colour of the surface, as far as the file says.
+    pub(crate) fn is_modulated(&self, number: usize) -> bool {
+        let source = self.document.root.textures.get(number);
+        let iv = source.and_then(|source| Iv::of(&source.extras));
+        iv.is_none_or(|iv| model(&iv) == TextureModel::Modulate)
+    }
+
     /// A texture of the scene; `None`, and a warning, if it has no image.
     pub(crate) fn texture(
         &mut self,

@@ -10,6 +10,7 @@ use flate2::Compression;
 use flate2::Crc;
 use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
+use rustc_hash::FxHashMap;
 use scenegraph::{LoadError, Loader};
 use serde_json::{Map, Value, json};
 
@@ -175,13 +176,28 @@ fn base64(bytes: &[u8]) -> String {
 
 /// The files of an unpacked source; images are those of the glTF file it came with.
 pub(crate) struct Unpacked {
-    pub(crate) files: Vec<(String, Arc<[u8]>)>,
+    files: Vec<(String, Arc<[u8]>)>,
+    /// By path, the first of equals.
+    by_path: FxHashMap<String, usize>,
 }
 
 impl Unpacked {
+    /// The model's text first.
+    pub(crate) fn new(files: Vec<(String, Arc<[u8]>)>) -> Self {
+        let mut by_path = FxHashMap::default();
+        for (i, (path, _)) in files.iter().enumerate() {
+            by_path.entry(path.clone()).or_insert(i);
+        }
+        Self { files, by_path }
+    }
+
+    pub(crate) fn files(&self) -> &[(String, Arc<[u8]>)] {
+        &self.files
+    }
+
     fn get(&self, path: &str) -> Option<&Arc<[u8]>> {
-        let found = self.files.iter().find(|(known, _)| known == path);
-        found.map(|(_, bytes)| bytes)
+        let at = self.by_path.get(path)?;
+        self.files.get(*at).map(|(_, bytes)| bytes)
     }
 }
 

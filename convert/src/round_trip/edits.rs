@@ -1,27 +1,13 @@
 //! What differs between a file as it was written and as it is now, object by object.
 //!
 //! Nodes are paired from the roots down, by name where names are unique among siblings, else by what
-//! they show and where; meshes, materials, lights and cameras are paired by the nodes that show them. So another
-//! order, other buffers and other spellings of the same numbers are no edits.
+//! they show and where; meshes, materials, lights and cameras are paired by the nodes that show them.
+//! So another order, other buffers and other spellings of the same numbers are no edits.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use glam::{DAffine3, DVec3};
-use scenegraph::scene::{Camera, Light, LightKind, Material, Mesh, Projection, Topology};
-
-use crate::read::{NodeObject, Objects, PrimitiveObject};
-
-/// Colours, shares and angles: values that went through linear light, a quotient and f32.
-const VALUE_TOLERANCE: f64 = 2e-5;
-/// Rotations and scales, relative: quaternions that tools hold in f32 and make unit again.
-const LINEAR_TOLERANCE: f64 = 1e-6;
-/// f64 transforms that went through another text or another order of products.
-const EXACT_TOLERANCE: f64 = 1e-12;
-/// Positions relative to the extent of their mesh, and normals: a few roundings of f32.
-const VERTEX_TOLERANCE: f32 = 1e-6;
-const NORMAL_TOLERANCE: f32 = 2e-3;
-/// Vertex colours: half a step of 8-bit ones.
-const COLOR_TOLERANCE: f32 = 2.5e-3;
+use super::same::{same_camera, same_frame, same_geometry, same_light, same_material};
+use crate::read::{NodeObject, Objects};
 
 /// Siblings of one kind among which one in the same place is looked for.
 const MAX_SIBLINGS_TRIED: usize = 64;
@@ -302,8 +288,11 @@ fn siblings(
             None => rest.push(at),
         }
     }
+    let order: BTreeMap<usize, usize> = (b.iter().enumerate().rev())
+        .map(|(place, &to)| (to, place))
+        .collect();
     let mut left: Vec<usize> = alike.into_values().flatten().collect();
-    left.sort_by_key(|to| b.iter().position(|i| i == to));
+    left.sort_by_key(|to| order.get(to));
     pairs.extend(rest.into_iter().zip(left));
     Ok(pairs)
 }
@@ -323,133 +312,4 @@ fn kind(objects: &Objects, at: usize) -> Kind {
         node.children.len(),
         node.name.is_some(),
     )
-}
-
-fn near(a: f64, b: f64, tolerance: f64) -> bool {
-    (a - b).abs() <= tolerance * a.abs().max(b.abs()).max(1.0)
-}
-
-fn all_near(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(*a, *b, VALUE_TOLERANCE))
-}
-
-/// Equal, or what is left of the one in f32.
-fn same_place(a: DVec3, b: DVec3) -> bool {
-    let scale = a.abs().max_element();
-    let same =
-        |a: f64, b: f64| (a - b).abs() <= EXACT_TOLERANCE * scale || b == f64::from(a as f32);
-    same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z)
-}
-
-pub(crate) fn same_frame(a: &DAffine3, b: &DAffine3) -> bool {
-    let (x, y) = (a.matrix3.to_cols_array(), b.matrix3.to_cols_array());
-    let scale = x.iter().fold(0.0, |most: f64, v| v.abs().max(most));
-    let linear = x
-        .iter()
-        .zip(y)
-        .all(|(a, b)| (a - b).abs() <= LINEAR_TOLERANCE * scale);
-    linear && same_place(a.translation, b.translation)
-}
-
-fn same_material(a: &Material, b: &Material) -> bool {
-    let numbers = |m: &Material| {
-        let colors = [m.diffuse_srgb, m.specular_srgb, m.emissive_srgb].concat();
-        [colors, vec![m.shininess, m.transparency]].concat()
-    };
-    a.name == b.name
-        && all_near(&numbers(a), &numbers(b))
-        && (a.light_model, a.faces) == (b.light_model, b.faces)
-}
-
-fn same_light(
-    (a, fall): &(Light, [f64; 3]),
-    (b, fall_back): &(Light, [f64; 3]),
-    other_size: bool,
-) -> bool {
-    let cone = |light: &Light| match light.kind {
-        LightKind::Directional { .. } => (0, [0.0; 2]),
-        LightKind::Point { .. } => (1, [0.0; 2]),
-        LightKind::Spot {
-            drop_off_rate,
-            cut_off_angle_rad,
-            ..
-        } => (2, [drop_off_rate, cut_off_angle_rad]),
-    };
-    let ((kind, angles), (kind_back, angles_back)) = (cone(a), cone(b));
-    kind == kind_back
-        && all_near(&angles, &angles_back)
-        && all_near(&a.color_srgb, &b.color_srgb)
-        && (other_size && kind > 0 || near(a.intensity, b.intensity, VALUE_TOLERANCE))
-        && fall == fall_back
-}
-
-fn same_camera(a: &Camera, b: &Camera, other_size: bool) -> bool {
-    let view = |camera: &Camera| match camera.projection {
-        Projection::Perspective { height_angle_rad } => [0.0, height_angle_rad],
-        Projection::Orthographic { height } => [1.0, height],
-    };
-    let numbers = |c: &Camera| [c.near_distance, c.far_distance];
-    all_near(&view(a), &view(b))
-        && near(a.aspect_ratio, b.aspect_ratio, VALUE_TOLERANCE)
-        && (other_size || all_near(&numbers(a), &numbers(b)))
-}
-
-fn same_geometry(a: &PrimitiveObject, b: &PrimitiveObject) -> bool {
-    match (&a.mesh, &b.mesh) {
-        (Some(a), Some(b)) => same_mesh(a, b),
-        (None, None) => true,
-        _ => false,
-    }
-}
-
-/// Corner by corner, so that other vertices in the same places are no edit.
-fn same_mesh(a: &Mesh, b: &Mesh) -> bool {
-    if a == b {
-        return true;
-    }
-    let step = match a.topology {
-        Topology::Triangles => 3,
-        Topology::Lines => 2,
-        Topology::Points => 1,
-    };
-    let has = |m: &Mesh| {
-        [
-            m.normals.is_empty(),
-            m.texcoords.is_empty(),
-            m.colors_srgb.is_empty(),
-        ]
-    };
-    if a.topology != b.topology || a.indices.len() != b.indices.len() || has(a) != has(b) {
-        return false;
-    }
-    let extent = a
-        .positions
-        .as_flattened()
-        .iter()
-        .fold(0.0, |most: f32, v| v.abs().max(most));
-    let close = |a: &[f32], b: &[f32], tolerance: f32| {
-        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance)
-    };
-    let corners = a.indices.chunks(step).zip(b.indices.chunks(step));
-    corners.flat_map(|(a, b)| a.iter().zip(b)).all(|(&i, &k)| {
-        let (i, k) = (i as usize, k as usize);
-        let attribute = |empty: bool, of: &dyn Fn() -> bool| empty || of();
-        close(&a.positions[i], &b.positions[k], VERTEX_TOLERANCE * extent)
-            && attribute(a.normals.is_empty(), &|| {
-                close(&a.normals[i], &b.normals[k], NORMAL_TOLERANCE)
-            })
-            && attribute(a.texcoords.is_empty(), &|| {
-                let size = a.texcoords[i]
-                    .iter()
-                    .fold(1.0, |most: f32, v| v.abs().max(most));
-                close(
-                    &a.texcoords[i],
-                    &b.texcoords[k],
-                    2.0 * VERTEX_TOLERANCE * size,
-                )
-            })
-            && attribute(a.colors_srgb.is_empty(), &|| {
-                close(&a.colors_srgb[i], &b.colors_srgb[k], COLOR_TOLERANCE)
-            })
-    })
 }

@@ -18,14 +18,10 @@ pub(crate) fn to_value(options: &Options, resolve: &ResolveOptions) -> Value {
         ("up", up_word(options.up), up_word(usual.up)),
         (
             "materials",
-            materials_word(options.materials),
-            materials_word(usual.materials),
+            options.materials.word(),
+            usual.materials.word(),
         ),
-        (
-            "lights",
-            lights_word(options.lights),
-            lights_word(usual.lights),
-        ),
+        ("lights", options.lights.word(), usual.lights.word()),
         (
             "textures",
             textures_word(options.textures),
@@ -64,21 +60,6 @@ fn up_word(up: Up) -> &'static str {
     }
 }
 
-fn materials_word(materials: Materials) -> &'static str {
-    match materials {
-        Materials::Fidelity => "fidelity",
-        Materials::Simple => "simple",
-        Materials::Unlit => "unlit",
-    }
-}
-
-fn lights_word(lights: Lights) -> &'static str {
-    match lights {
-        Lights::Unitless => "unitless",
-        Lights::Physical => "physical",
-    }
-}
-
 fn textures_word(textures: TextureFormat) -> &'static str {
     match textures {
         TextureFormat::Keep => "keep",
@@ -104,16 +85,11 @@ pub(crate) fn from_value(value: &Value) -> (Options, ResolveOptions) {
         up: one(&value["up"], &[Up::Y, Up::Z], up_word, usual.up),
         materials: one(
             &value["materials"],
-            &[Materials::Fidelity, Materials::Simple, Materials::Unlit],
-            materials_word,
+            &Materials::ALL,
+            Materials::word,
             usual.materials,
         ),
-        lights: one(
-            &value["lights"],
-            &[Lights::Unitless, Lights::Physical],
-            lights_word,
-            usual.lights,
-        ),
+        lights: one(&value["lights"], &Lights::ALL, Lights::word, usual.lights),
         textures: one(
             &value["textures"],
             &[TextureFormat::Keep, TextureFormat::Png, TextureFormat::Webp],

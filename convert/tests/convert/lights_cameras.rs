@@ -224,11 +224,14 @@ fn light_extras_hold_inventors_own_values() {
             "dropOffRate": 0.25,
             "cutOffAngle": 0.5,
             "environment": 1,
+            "referenceDistance": 2.5,
         })
     );
     let color = crate::read::numbers(&light(&converted, 0)["color"]);
     assert!((color[1] - 0.214_041).abs() < 1e-6);
-    assert_eq!(light(&converted, 1).get("extras"), None);
+    // Of a light that does not fade, the distance to the centre.
+    let extras = &light(&converted, 1)["extras"]["iv"];
+    assert_eq!(*extras, json!({ "referenceDistance": 3 }));
 }
 
 const PERSPECTIVE: Projection = Projection::Perspective {

@@ -149,6 +149,7 @@ impl Build {
             name: name.map(Into::into),
             class: "Separator".into(),
             notes: Vec::new(),
+            link: None,
             parent_from_local: local,
             pos: at_line(2),
         });

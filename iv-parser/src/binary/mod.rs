@@ -286,4 +286,6 @@ impl<'a> Reader<'a, '_> {
 }
 
 #[cfg(test)]
+mod testing;
+#[cfg(test)]
 mod tests;

@@ -20,7 +20,7 @@ ExtSelection as Separator: Selection, Full, [SEPARATOR, SELECTION],
 LocateHighlight as Separator: Separator, Full, [SEPARATOR, HIGHLIGHT],
     "A Separator; highlighting under the pointer has no effect." {}
 WWWAnchor as Separator: LocateHighlight, Full, [SEPARATOR, HIGHLIGHT],
-    "A Separator with a link." {
+    "A Separator with a link, which stands in the extras." {
     name: SFString = "\"<Undefined URL>\"";
     description: SFString = "\"\"";
     map: SFEnum = "NONE" [NONE, POINT];

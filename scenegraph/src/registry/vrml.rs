@@ -39,7 +39,7 @@ VRMLInline: Node, Full, [],
     url: MFString = "[]";
 }
 VRMLAnchor: VRMLParent, Full, [],
-    "A Group with a link." {
+    "A Group with a link, which stands in the extras." {
     children: MFNode = "[]";
     url: MFString = "[]";
     description: SFString = "\"\"";

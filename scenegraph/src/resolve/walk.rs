@@ -50,6 +50,9 @@ struct Copies {
     total: u64,
 }
 
+/// `name` of a `WWWAnchor` that has none.
+const UNDEFINED_URL: &str = "<Undefined URL>";
+
 /// The frame of an open group.
 pub(super) struct Frame {
     node: NodeId,
@@ -528,6 +531,7 @@ impl<'g> Walk<'g> {
                 name: node.name.clone(),
                 class,
                 notes: Vec::new(),
+                link: link_of(node).map(Arc::new),
                 parent_from_local: frame.parent_from_local,
                 pos: node.pos,
             });
@@ -585,4 +589,21 @@ fn array_offset(node: &Node, index: u64) -> DVec3 {
         rest /= count;
     }
     offset
+}
+
+/// Where a group leads. An address that nobody gave is none.
+fn link_of(node: &Node) -> Option<scene::Link> {
+    let (urls, parameters): (_, &[Arc<str>]) = match node.class()? {
+        Class::WWWAnchor => (node.value("name").texts(), &[]),
+        Class::VRMLAnchor => (node.value("url").texts(), node.value("parameter").texts()),
+        _ => return None,
+    };
+    let is_given = |url: &&Arc<str>| !url.is_empty() && &***url != UNDEFINED_URL;
+    let urls: Vec<Arc<str>> = urls.iter().filter(is_given).cloned().collect();
+    (!urls.is_empty()).then(|| scene::Link {
+        urls,
+        description: node.text("description").cloned().unwrap_or_default(),
+        parameters: parameters.to_vec(),
+        tells_point: node.class() == Some(Class::WWWAnchor) && node.word("map") == "POINT",
+    })
 }

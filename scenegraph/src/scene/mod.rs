@@ -14,6 +14,7 @@
 
 mod check;
 mod light;
+mod link;
 mod material;
 mod mesh;
 mod subset;
@@ -23,6 +24,7 @@ pub use check::Fault;
 pub use light::{
     Beam, Camera, Environment, Fog, FogType, Light, LightKind, Projection, ViewportMapping,
 };
+pub use link::Link;
 pub use material::{
     Faces, Image, LightModel, Material, Texture, TextureModel, TextureSource, Wrap,
 };
@@ -104,6 +106,8 @@ pub struct Node {
     pub class: Arc<str>,
     /// Texts of `Label` and `Info` nodes directly in this group.
     pub notes: Vec<Arc<str>>,
+    /// Where it leads, if it is an anchor.
+    pub link: Option<Arc<Link>>,
     /// Its frame in that of `parent` (the world for a root).
     pub parent_from_local: DAffine3,
     /// Where it stands in the source.

@@ -4,8 +4,8 @@ use glam::{DAffine3, DMat3};
 use rustc_hash::FxHashMap;
 
 use crate::scene::{
-    Camera, Environment, EnvironmentId, LightId, MaterialId, MeshId, NodeId, Placement, Scene,
-    TextureId,
+    Camera, Environment, EnvironmentId, LightId, Link, MaterialId, MeshId, NodeId, Placement,
+    Scene, TextureId,
 };
 
 use super::lights::{Lights, Part};
@@ -94,7 +94,8 @@ impl<'s> Writer<'s> {
             _ => None,
         };
         let name = root.and_then(|root| self.scene.nodes[root.index()].name.as_deref());
-        self.open(name);
+        let link = root.and_then(|root| self.scene.nodes[root.index()].link.as_deref());
+        self.open(name, link);
         self.views();
         let mut parts = self.lights.order(None, &world);
         if let Some(root) = root
@@ -113,8 +114,8 @@ impl<'s> Writer<'s> {
                 Step::Part(Part::Light(light)) => self.light(light),
                 Step::Part(Part::Member(Member::Item(i))) => self.item(i),
                 Step::Part(Part::Member(Member::Group(node))) => {
-                    let name = self.scene.nodes[node.index()].name.as_deref();
-                    self.open(name);
+                    let group = &self.scene.nodes[node.index()];
+                    self.open(group.name.as_deref(), group.link.as_deref());
                     let parts = self.body(node);
                     steps.push(Step::Close);
                     steps.extend(parts.into_iter().rev().map(Step::Part));
@@ -136,10 +137,20 @@ impl<'s> Writer<'s> {
         frame == DAffine3::IDENTITY || alone
     }
 
-    /// `DEF name Separator {`, with a label if the name had to be changed.
-    fn open(&mut self, name: Option<&str>) {
+    /// `DEF name Separator {`, with a label if the name had to be changed; a `WWWAnchor`, which is
+    /// one, if it leads somewhere. That has room for one address.
+    fn open(&mut self, name: Option<&str>, link: Option<&Link>) {
         let def = name.and_then(legal);
-        self.text.open(def.as_deref(), "Separator");
+        let url = link.and_then(|link| link.urls.first());
+        let class = url.map_or("Separator", |_| "WWWAnchor");
+        self.text.open(def.as_deref(), class);
+        if let (Some(url), Some(link)) = (url, link) {
+            self.text.string("name", url);
+            self.text.string("description", &link.description);
+            if link.tells_point {
+                self.text.word("map", "POINT");
+            }
+        }
         self.label(name);
         let environment = self.environments.last().cloned().unwrap_or_default();
         self.environments.push(environment);
@@ -285,7 +296,7 @@ impl<'s> Writer<'s> {
         let material = &scene.materials[instance.material.index()];
         let name = instance.placement.name.as_deref();
         let is_shared = self.meshes[instance.mesh.index()].count > 1;
-        self.open(name.filter(|_| is_shared));
+        self.open(name.filter(|_| is_shared), None);
         if !is_shared {
             self.label(name);
         }

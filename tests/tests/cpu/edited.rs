@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use convert::{InventorFiles, Options, write_glb};
+use convert::{InventorFiles, Options, Up, write_glb};
 use glam::{DAffine3, DQuat, DVec3};
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -15,7 +15,7 @@ use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 use serde_json::{Value, json};
 
 use super::models::{Images, Model, samples};
-use super::source_back::{back, glb_with_source};
+use super::source_back::{back, glb_made_so};
 
 /// An edit of one object, whichever there is.
 #[derive(Clone, Debug)]
@@ -40,13 +40,13 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 /// The text of a `.glb`, and what follows it.
-fn parts(glb: &[u8]) -> (Value, &[u8]) {
+pub fn parts(glb: &[u8]) -> (Value, &[u8]) {
     let length = glb[12..16].try_into().map_or(0, u32::from_le_bytes) as usize;
     let text = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
     (text, &glb[20 + length..])
 }
 
-fn joined(text: &Value, rest: &[u8]) -> Vec<u8> {
+pub fn joined(text: &Value, rest: &[u8]) -> Vec<u8> {
     let mut text = text.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let words = [2, 20 + text.len() + rest.len(), text.len()];
@@ -95,7 +95,7 @@ fn apply(document: &mut Value, edit: &Edit) -> bool {
 }
 
 /// The JSON of what a text and the files beside it give.
-fn converted(files: &InventorFiles) -> Value {
+fn converted(files: &InventorFiles, options: &Options) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path().canonicalize().expect("a folder");
     for (name, bytes) in &files.beside {
@@ -107,7 +107,7 @@ fn converted(files: &InventorFiles) -> Value {
     let graph = load(&files.text, "model.iv", &folder, &loader);
     let scene = resolve(&graph, &ResolveOptions::default()).scene;
     let mut glb = Vec::new();
-    write_glb(&scene, &Options::default(), &Images(loader), &mut glb).expect("a file");
+    write_glb(&scene, options, &Images(loader), &mut glb).expect("a file");
     parts(&glb).0
 }
 
@@ -230,7 +230,7 @@ enum Fate {
     Anew,
 }
 
-fn fate(model: &Model, glb: &[u8], edit: &Edit) -> Result<Fate, String> {
+fn fate(model: &Model, glb: &[u8], edit: &Edit, options: &Options) -> Result<Fate, String> {
     let (mut document, rest) = parts(glb);
     if !apply(&mut document, edit) {
         return Ok(Fate::Nothing);
@@ -240,7 +240,7 @@ fn fate(model: &Model, glb: &[u8], edit: &Edit) -> Result<Fate, String> {
     if anew {
         return Ok(Fate::Anew);
     }
-    let result = converted(&files);
+    let result = converted(&files, options);
     if let Some(why) = difference(&document, &result) {
         let why: String = why.chars().take(700).collect();
         return Err(format!("{} {edit:?}: {why}", model.name));
@@ -248,8 +248,8 @@ fn fate(model: &Model, glb: &[u8], edit: &Edit) -> Result<Fate, String> {
     Ok(Fate::Patched)
 }
 
-#[test]
-fn edits_arrive_in_the_source() {
+/// What became of some edits of each sample.
+fn fates(options: &Options) -> BTreeMap<Fate, usize> {
     let mut runner = TestRunner::new_with_rng(
         Config::default(),
         TestRng::deterministic_rng(RngAlgorithm::ChaCha),
@@ -260,14 +260,10 @@ fn edits_arrive_in_the_source() {
         let text = fs::read(&model.path).expect("a sample");
         let folder = model.path.parent().unwrap_or(Path::new(".")).canonicalize();
         let folder = folder.expect("a folder");
-        let glb = glb_with_source(&text, &folder, &model.loader()).expect("a file");
+        let glb = glb_made_so(&text, &folder, &model.loader(), options).expect("a file");
         for _ in 0..8 {
             let edit = edit().new_tree(&mut runner).expect("an edit").current();
-            match fate(&model, &glb, &edit) {
-                // Edits are not put into texts of VRML 2.0.
-                Ok(fate) if text.starts_with(b"#VRML V2.0") => {
-                    assert_ne!(fate, Fate::Patched, "{}", model.name);
-                }
+            match fate(&model, &glb, &edit, options) {
                 Ok(fate) => {
                     if fate == Fate::Anew {
                         println!("{} {edit:?}", model.name);
@@ -285,7 +281,132 @@ fn edits_arrive_in_the_source() {
         faults.len(),
         faults.join("\n")
     );
-    // What is left are edits of one of several uses of a node, and of what the source computes.
-    let count = |fate: Fate| fates.get(&fate).copied().unwrap_or_default();
-    assert!(count(Fate::Patched) > 4 * count(Fate::Anew), "{fates:?}");
+    fates
+}
+
+#[test]
+fn edits_arrive_in_the_source() {
+    let turned = Options {
+        up: Up::Z,
+        metres_per_unit: 0.001,
+        ..Options::default()
+    };
+    for options in [Options::default(), turned] {
+        let fates = fates(&options);
+        // What is left are edits of one of several uses of a node, and of what the source computes.
+        let count = |fate: Fate| fates.get(&fate).copied().unwrap_or_default();
+        assert!(count(Fate::Patched) > 4 * count(Fate::Anew), "{fates:?}");
+    }
+}
+
+const VRML2: &str = "#VRML V2.0 utf8
+Viewpoint { position 0 0 9 fieldOfView 0.5 }
+DEF Lamp SpotLight { location 1 2 3 color 1 0.5 0 cutOffAngle 0.5 } # a lamp
+DEF Arm Transform { translation 1 2 3 center 0 1 0 rotation 0 1 0 0.5 children [
+  DEF Bolt Shape {
+    appearance Appearance { material DEF Red Material { diffuseColor 1 0 0 } } # red
+    geometry Box { }
+  }
+] }
+DEF Pair Group { children [
+  Shape { appearance Appearance { material DEF Blue Material { } } geometry Sphere { } }
+  DEF Tip Shape { geometry Cone { } }
+] }
+";
+
+/// What can be edited in a text of VRML 2.0, and what then stands in it.
+#[test]
+fn edits_arrive_in_vrml_2() {
+    let (nodes, materials) = ("/nodes", "/materials");
+    let lights = "/extensions/KHR_lights_punctual/lights";
+    let turn = json!([0, 0.6, 0, 0.8]);
+    let rows = [
+        (nodes, "Arm", "name", json!("Leg"), "DEF Leg Transform {"),
+        (
+            nodes,
+            "Arm",
+            "translation",
+            json!([1, 2, 4]),
+            "translation 1 2 4",
+        ),
+        (
+            nodes,
+            "Arm",
+            "rotation",
+            turn.clone(),
+            "DEF Arm Transform {",
+        ),
+        (nodes, "Arm", "scale", json!([1, 2, 1]), "scale 1 2 1"),
+        (
+            nodes,
+            "Tip",
+            "translation",
+            json!([0, 0, 7]),
+            "Transform { translation 0 0 7 children [ DEF Tip",
+        ),
+        (nodes, "Pair", "rotation", turn, "children [ DEF Pair"),
+        (
+            nodes,
+            "Lamp",
+            "translation",
+            json!([1, 2, 5]),
+            "location 1 2 5",
+        ),
+        (
+            materials,
+            "Red",
+            "name",
+            json!("Rust"),
+            "DEF Rust Material {",
+        ),
+        (
+            materials,
+            "Red",
+            "emissiveFactor",
+            json!([0, 1, 0]),
+            "emissiveColor 0 1 0",
+        ),
+        (
+            materials,
+            "Blue",
+            "emissiveFactor",
+            json!([0, 1, 0]),
+            "emissiveColor 0 1 0",
+        ),
+        (lights, "", "color", json!([0, 1, 0]), "color 0 1 0"),
+        (
+            "/cameras",
+            "",
+            "perspective",
+            json!({"yfov": 0.75, "znear": 0.1}),
+            "fieldOfView 0.75",
+        ),
+    ];
+    let nothing = FileLoader::default();
+    let turned = Options {
+        up: Up::Z,
+        metres_per_unit: 0.5,
+        ..Options::default()
+    };
+    let mut faults = Vec::new();
+    for options in [Options::default(), turned] {
+        let glb = glb_made_so(VRML2.as_bytes(), Path::new(""), &nothing, &options);
+        let glb = glb.expect("a file");
+        for (list, name, key, value, want) in &rows {
+            let (mut document, rest) = parts(&glb);
+            let objects = document.pointer_mut(list).and_then(Value::as_array_mut);
+            let objects = objects.expect("a list").iter_mut();
+            let mut named = objects.filter(|o| name.is_empty() || o["name"] == *name);
+            named.next().expect(name)[*key] = value.clone();
+            let files = back(&joined(&document, rest)).expect("a text");
+            let text = String::from_utf8_lossy(&files.text);
+            if !(text.contains(want) && text.contains("# a lamp")) {
+                faults.push(format!("{name} {key}: {:?}\n{text:.900}", files.notes));
+                continue;
+            }
+            let difference = difference(&document, &converted(&files, &options));
+            faults.extend(difference.map(|why| format!("{name} {key}: {why}")));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

@@ -1,4 +1,5 @@
-//! Printing loses nothing: what is printed and read again resolves to the same scene.
+//! Printing loses nothing: what is printed and read again, of text or of binary, is the same tree and
+//! resolves to the same scene.
 
 use std::fs;
 use std::path::Path;
@@ -7,8 +8,9 @@ use iv_parser::{Limits, SourcePos, parse, parse_any};
 use scenegraph::scene::{Placement, Scene, TextureSource};
 use scenegraph::{RegistryLayout, ResolveOptions, load, resolve};
 use tests::fuzz_body::{self, print};
+use tests::same_tree;
 
-use super::models::{Model, corpus, samples};
+use super::models::{Model, check_all, samples};
 
 /// A scene without the places of the text it was read from.
 pub fn scene_of(bytes: &[u8], model: &Model) -> Scene {
@@ -60,6 +62,9 @@ fn check(model: &Model) -> Result<(), String> {
     let parsed = parse_any(&bytes, &RegistryLayout, &Limits::default());
     let text = print(&parsed.tree);
     let again = parse(&text);
+    if let Some(difference) = same_tree::difference(&parsed.tree, &again.tree) {
+        return Err(difference);
+    }
     if print(&again.tree) != text {
         return Err("a second print differs".to_owned());
     }
@@ -71,14 +76,8 @@ fn check(model: &Model) -> Result<(), String> {
 }
 
 #[test]
-fn printed_files_give_the_same_scene() {
-    let mut failures = Vec::new();
-    for model in samples().iter().chain(&corpus()) {
-        if let Err(why) = check(model) {
-            failures.push(format!("{}: {why}", model.name));
-        }
-    }
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
+fn printed_files_give_the_same_tree_and_scene() {
+    check_all(check);
 }
 
 /// The comparison sees what it must see.

@@ -10,10 +10,20 @@ use convert::{
 };
 use scenegraph::{FileLoader, ResolveOptions, load, resolve};
 
-use super::models::{Model, corpus, samples};
+use super::models::{Model, check_all};
 
 /// The `.glb` with source of a text in `folder`.
 pub fn glb_with_source(text: &[u8], folder: &Path, loader: &FileLoader) -> Result<Vec<u8>, String> {
+    glb_made_so(text, folder, loader, &Options::default())
+}
+
+/// As [`glb_with_source`], with options.
+pub fn glb_made_so(
+    text: &[u8],
+    folder: &Path,
+    loader: &FileLoader,
+    options: &Options,
+) -> Result<Vec<u8>, String> {
     let recorder = Recorder::new(loader, folder);
     let graph = load(text, "model.iv", folder, &recorder);
     let resolve_options = ResolveOptions::default();
@@ -24,8 +34,7 @@ pub fn glb_with_source(text: &[u8], folder: &Path, loader: &FileLoader) -> Resul
         recorder: &recorder,
         resolve: &resolve_options,
     };
-    write_glb_with_source(&scene, &Options::default(), &source, &mut glb)
-        .map_err(|error| error.to_string())?;
+    write_glb_with_source(&scene, options, &source, &mut glb).map_err(|error| error.to_string())?;
     Ok(glb)
 }
 
@@ -64,16 +73,5 @@ fn check(model: &Model) -> Result<(), String> {
 
 #[test]
 fn source_and_file_come_back_byte_for_byte() {
-    let mut faults = Vec::new();
-    for model in samples().iter().chain(&corpus()) {
-        if let Err(why) = check(model) {
-            faults.push(format!("{}: {why}", model.name));
-        }
-    }
-    assert!(
-        faults.is_empty(),
-        "{} faults\n{}",
-        faults.len(),
-        faults.join("\n")
-    );
+    check_all(check);
 }

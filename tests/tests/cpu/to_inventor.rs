@@ -10,7 +10,7 @@ use scenegraph::{FileLoader, LoadError, Loader, ResolveOptions, load, resolve};
 use tests::fuzz_body;
 use tests::same_scene::differences;
 
-use super::models::{Model, corpus, samples};
+use super::models::{Model, check_all};
 
 /// Files in memory, by name.
 struct Files(BTreeMap<String, Vec<u8>>);
@@ -78,17 +78,5 @@ fn check(model: &Model) -> Result<(), String> {
 
 #[test]
 fn text_of_converted_models_shows_the_same() {
-    let mut faults = Vec::new();
-    for model in samples().iter().chain(&corpus()) {
-        if let Err(why) = check(model) {
-            let why: String = why.chars().take(600).collect();
-            faults.push(format!("{}: {why}", model.name));
-        }
-    }
-    assert!(
-        faults.is_empty(),
-        "{} faults\n{}",
-        faults.len(),
-        faults.join("\n")
-    );
+    check_all(check);
 }

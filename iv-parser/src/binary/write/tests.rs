@@ -1,7 +1,7 @@
 //! Text to bytes and back, by rows.
 
-use crate::binary::tests::{Known, brief, bytes};
-use crate::{Limits, parse, parse_any, print_binary};
+use crate::binary::testing::{Known, brief, bytes, codes, read};
+use crate::{parse, print_binary};
 
 /// Writes text as binary: the bytes, and the codes of what is left out.
 fn written(text: &str) -> (Vec<u8>, String) {
@@ -9,8 +9,7 @@ fn written(text: &str) -> (Vec<u8>, String) {
     assert_eq!(parsed.problems, [], "{text}");
     let mut out = Vec::new();
     let problems = print_binary(&parsed.tree, &Known, &mut out).unwrap();
-    let codes: Vec<&str> = problems.iter().map(|p| p.code).collect();
-    (out, codes.join(" "))
+    (out, codes(&problems))
 }
 
 /// Version, text, body of the binary file, what is told.
@@ -211,7 +210,7 @@ fn bytes_are_as_assembled_by_hand() {
 fn what_is_written_is_read_back() {
     for (version, text, _, _) in ROWS {
         let (out, _) = written(&format!("#Inventor V{version} ascii\n{text}"));
-        let read = parse_any(&out, &Known, &Limits::default());
+        let read = read(&out);
         assert_eq!(read.problems, [], "{text}");
         let mut again = Vec::new();
         let told = print_binary(&read.tree, &Known, &mut again).unwrap();
