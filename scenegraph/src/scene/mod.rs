@@ -10,12 +10,17 @@
 //! - front faces are counter-clockwise, whatever order the source has;
 //! - meshes, materials and textures are shared by index, and none is unused;
 //! - texts belong to instances in ascending order;
-//! - lights that are off and shapes that are not drawn are not in it.
+//! - lights that are off and shapes that are not drawn are not in it;
+//! - only where [`ResolveOptions::alternatives`](crate::ResolveOptions::alternatives) asked for them
+//!   are there nodes that are not always [`Shown`] and [`Variant`]s; no light hangs below such a
+//!   node, a level has a parent, limits of levels are finite and not negative, and variants name
+//!   instances in ascending order, none without a material of its own.
 
 mod check;
 mod light;
 mod material;
 mod mesh;
+mod shown;
 mod text;
 
 pub use check::Fault;
@@ -26,6 +31,7 @@ pub use material::{
     Faces, Image, LightModel, Material, Texture, TextureModel, TextureSource, Wrap,
 };
 pub use mesh::{Mesh, Topology};
+pub use shown::{Coarser, Shown, Variant, is_below};
 pub use text::Text;
 
 use std::sync::Arc;
@@ -88,6 +94,8 @@ pub struct Scene {
     pub environments: Vec<Environment>,
     /// What instances spell, in their order.
     pub texts: Vec<Text>,
+    /// Other looks: instances that a variant does not name keep their own material in it.
+    pub variants: Vec<Variant>,
     /// The files read, by [`SourcePos::file`].
     pub files: Vec<Arc<str>>,
 }
@@ -105,6 +113,8 @@ pub struct Node {
     pub notes: Vec<Arc<str>>,
     /// Its frame in that of `parent` (the world for a root).
     pub parent_from_local: DAffine3,
+    /// When it is shown.
+    pub shown: Shown,
     /// Where it stands in the source.
     pub pos: SourcePos,
 }
