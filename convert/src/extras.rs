@@ -8,6 +8,7 @@ use scenegraph::scene::{
     Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
 };
 
+use crate::alternatives::Limits;
 use crate::json::Json;
 
 /// Half a unit in the last of the six digits that Inventor's documents give for defaults.
@@ -178,8 +179,9 @@ pub(crate) fn node<'a>(
     notes: impl IntoIterator<Item = &'a str>,
     text: Option<&Text>,
     scope: Scope,
+    limits: &Limits,
 ) {
-    iv(json, |json| {
+    let body = |json: &mut Json| {
         if let Some(class) = class {
             json.key("type").str(class);
         }
@@ -190,8 +192,13 @@ pub(crate) fn node<'a>(
                 json.key("facesViewer").bool(true);
             }
         }
+        limits.write_fields(json);
         index(json, "lightSet", scope.light_set);
         index(json, "environment", scope.environment);
+    };
+    json.object_unless_empty("extras", |json| {
+        limits.write_coverage(json);
+        json.object_unless_empty("iv", body);
     });
 }
 

@@ -20,6 +20,7 @@
 //! scene. Files are opened by the caller's [`TextureLoader`] only, and written by [`write_file`]
 //! only.
 
+mod alternatives;
 mod base64;
 mod binary;
 mod blocks;

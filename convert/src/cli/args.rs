@@ -221,7 +221,9 @@ impl Args {
             );
         }
         let usual = Options::default();
-        let shapes_gltf = self.choices.apply(usual.clone()) != usual || self.round_trip;
+        let shapes_gltf = self.choices.apply(usual.clone()) != usual
+            || self.choices.alternatives
+            || self.round_trip;
         if format == Format::Iv && shapes_gltf {
             return Err(
                 "options of how the glTF is made, and --round-trip, have no effect on .iv"

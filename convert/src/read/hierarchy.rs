@@ -11,7 +11,7 @@ use gltf::json::Node as JsonNode;
 use iv_parser::SourcePos;
 use scenegraph::scene::{
     Camera, Environment, EnvironmentId, Instance, Light, LightSetId, MaterialId, MeshId, Node,
-    NodeId, Placement, Text,
+    NodeId, Placement, Shown, Text,
 };
 
 use super::budget::Budget;
@@ -177,6 +177,7 @@ impl<'a> Walk<'a> {
             class,
             notes,
             parent_from_local,
+            shown: Shown::Always,
             pos: SourcePos::default(),
         });
         placement.node = Some(group);

@@ -113,6 +113,7 @@ pub fn read_gltf(
         light_sets,
         environments: walk.environments,
         texts: walk.texts,
+        variants: Vec::new(),
         files: vec![name.into()],
     };
     debug_assert_eq!(scene.check(), Vec::new());

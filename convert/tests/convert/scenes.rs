@@ -150,6 +150,7 @@ impl Build {
             class: "Separator".into(),
             notes: Vec::new(),
             parent_from_local: local,
+            shown: scenegraph::scene::Shown::Always,
             pos: at_line(2),
         });
         self.scene.nodes.len() as u32 - 1

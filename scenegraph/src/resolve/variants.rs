@@ -88,7 +88,11 @@ pub enum Looks {
 fn sets_look(class: Class) -> bool {
     matches!(
         class,
-        Class::Material | Class::BaseColor | Class::PackedColor | Class::Texture2 | Class::LightModel
+        Class::Material
+            | Class::BaseColor
+            | Class::PackedColor
+            | Class::Texture2
+            | Class::LightModel
     )
 }
 
@@ -179,9 +183,8 @@ impl Variants {
     /// Those of Switches that change something.
     pub fn finish(self) -> Vec<Variant> {
         let mut list: Vec<Option<Variant>> = self.list.into_iter().map(Some).collect();
-        let changes = |variant: &Option<Variant>| {
-            variant.as_ref().is_some_and(|v| !v.materials.is_empty())
-        };
+        let changes =
+            |variant: &Option<Variant>| variant.as_ref().is_some_and(|v| !v.materials.is_empty());
         for range in self.ranges {
             if !list[range.clone()].iter().any(changes) {
                 list[range].fill(None);

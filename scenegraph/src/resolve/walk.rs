@@ -420,9 +420,12 @@ impl<'g> Walk<'g> {
         self.state.base = self.frames.len();
         self.state.relative = DAffine3::IDENTITY;
         let shared = copies.is_some() || self.is_shared(node);
-        let lit = choice.as_ref().map_or(&children, |(shown, _)| shown).clone();
-        let others = choice
-            .map(|(shown, choice)| Box::new(Others::new(shown, choice, self.state.clone())));
+        let lit = choice
+            .as_ref()
+            .map_or(&children, |(shown, _)| shown)
+            .clone();
+        let others =
+            choice.map(|(shown, choice)| Box::new(Others::new(shown, choice, self.state.clone())));
         self.stack.push(Open {
             node,
             next: children.start,
@@ -462,6 +465,7 @@ impl<'g> Walk<'g> {
 
     fn leave(&mut self, open: Open) {
         let depth = self.frames.len();
+        self.keep_empty_level();
         let Some(frame) = self.frames.pop() else {
             return;
         };
@@ -573,6 +577,20 @@ impl<'g> Walk<'g> {
             world_from_local: self.world(),
             name: node.name.clone(),
             pos: node.pos,
+        }
+    }
+
+    /// A level that shows nothing says that nothing is shown from there on, so it has a node too.
+    fn keep_empty_level(&mut self) {
+        let Some(frame) = self.frames.last() else {
+            return;
+        };
+        let around = frame.parent_base.checked_sub(1).map(|i| &self.frames[i]);
+        if matches!(frame.shown, Shown::Level(_))
+            && around.is_some_and(|around| around.scene_node.is_some())
+            && self.builder.items() < self.options.limits.items
+        {
+            self.scene_node(self.frames.len());
         }
     }
 
