@@ -6,6 +6,7 @@
 
 use gltf::json::Root;
 use serde::Deserialize;
+use serde_json::Value;
 
 use super::error::ReadError;
 
@@ -30,10 +31,12 @@ const SUPPORTED: &[&str] = &[
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
+    "KHR_node_visibility",
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "MSFT_lod",
 ];
 
 /// A parsed file.
@@ -60,6 +63,31 @@ pub(crate) struct ExactNode {
     pub(crate) translation: Option<[f64; 3]>,
     pub(crate) rotation: Option<[f64; 4]>,
     pub(crate) scale: Option<[f64; 3]>,
+    pub(crate) extensions: NodeExtensions,
+}
+
+/// Extensions of a node that the `gltf` crate does not know, whatever they hold.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct NodeExtensions {
+    #[serde(rename = "KHR_node_visibility")]
+    visibility: Value,
+    #[serde(rename = "MSFT_lod")]
+    lod: Value,
+}
+
+impl ExactNode {
+    pub(crate) fn is_hidden(&self) -> bool {
+        self.extensions.visibility["visible"] == false
+    }
+
+    /// The nodes that take its place from afar, from fine to coarse. Those that are no numbers are
+    /// left out.
+    pub(crate) fn coarser_levels(&self) -> impl Iterator<Item = usize> {
+        let ids = self.extensions.lod["ids"].as_array();
+        let numbers = ids.into_iter().flatten().filter_map(Value::as_u64);
+        numbers.filter_map(|id| id.try_into().ok())
+    }
 }
 
 /// A camera's projection, as written.

@@ -51,6 +51,7 @@ pub(crate) struct NodeObject {
     pub(crate) camera: Option<usize>,
     /// Frames of copies; just the identity as a rule.
     pub(crate) copies: Vec<DAffine3>,
+    pub(crate) is_hidden: bool,
 }
 
 /// A part of a mesh; without a mesh if it shows nothing.
@@ -185,7 +186,11 @@ impl Objects {
             objects.nodes.push(NodeObject {
                 name: source.name.clone(),
                 parent_from_local: parent_from_local(exact),
-                children: children.map(|child| child.value()).collect(),
+                // Coarser levels are no children, but hang on the node all the same.
+                children: (children.map(|child| child.value()))
+                    .chain(exact.coarser_levels())
+                    .collect(),
+                is_hidden: exact.is_hidden(),
                 mesh: source.mesh.map(|mesh| mesh.value()),
                 light: light.map(|light| light.light.value()),
                 camera: source.camera.map(|camera| camera.value()),

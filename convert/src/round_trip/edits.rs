@@ -144,6 +144,9 @@ impl<'o> Pairing<'o> {
         if !same_frame(&a.parent_from_local, &b.parent_from_local) {
             self.edits.frames.push((at, to));
         }
+        if a.is_hidden != b.is_hidden {
+            return Err("a part was hidden or shown".to_owned());
+        }
         let copies = a.copies.len() == b.copies.len()
             && a.copies
                 .iter()
