@@ -256,7 +256,10 @@ pub fn losses_markdown() -> String {
          half height and its height agree, its foot is wider.\n\
          - What a surface mirrors it cannot scatter: a light diffuse colour with a strong specular \
          one is darkened, because no glTF factor exceeds 1. A vertex colour is written as it is, \
-         so it is darkened by every highlight.\n",
+         so it is darkened by every highlight.\n\
+         - Of a Switch the chosen children are written, of levels of detail the finest. With \
+         `--alternatives` the others are kept; [OPTIONS.md](OPTIONS.md) says how, and what of them is \
+         left out.\n",
     );
     out
 }
