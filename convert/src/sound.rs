@@ -30,6 +30,10 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Error> {
         "a light or camera refers to something that is not there",
     )?;
     ensure(
+        (scene.nodes.iter()).all(|node| node.level().is_none() || node.parent.is_some()),
+        "a level of detail has no group around it",
+    )?;
+    ensure(
         scene.variants.iter().all(|variant| {
             let in_range = |&(instance, material): &(u32, MaterialId)| {
                 (instance as usize) < scene.instances.len()

@@ -97,15 +97,32 @@ pub fn resolve_within(bytes: &[u8], limits: ResolveLimits) -> Resolved {
     let graph = load(bytes, "input.iv", Path::new("."), &loader);
     let options = |geometry| ResolveOptions {
         geometry,
-        like_coin: false,
-        chord: None,
         limits,
+        ..ResolveOptions::default()
     };
     let mut resolved = scenegraph::resolve(&graph, &options(Geometry::Build));
     assert_eq!(resolved.scene.check(), []);
     let measured = scenegraph::resolve(&graph, &options(Geometry::Measure));
     check_measures(&resolved, &measured);
     resolved.diagnostics.splice(0..0, graph.diagnostics);
+    resolved
+}
+
+/// As [`resolve`], with what the file has besides what it shows.
+///
+/// # Panics
+///
+/// When that does not hold.
+pub fn resolve_alternatives(bytes: &[u8]) -> Resolved {
+    let loader = FileLoader::default();
+    let graph = load(bytes, "input.iv", Path::new("."), &loader);
+    let options = ResolveOptions {
+        alternatives: true,
+        limits: LIMITS,
+        ..ResolveOptions::default()
+    };
+    let resolved = scenegraph::resolve(&graph, &options);
+    assert_eq!(resolved.scene.check(), []);
     resolved
 }
 

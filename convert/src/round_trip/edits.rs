@@ -198,6 +198,12 @@ impl<'o> Pairing<'o> {
                 (None, None) => {}
                 _ => return Err("a mesh has got or lost its material".to_owned()),
             }
+            if !x.in_variants.keys().eq(y.in_variants.keys()) {
+                return Err("a mesh has other variants".to_owned());
+            }
+            for (&a, &b) in x.in_variants.values().zip(y.in_variants.values()) {
+                self.material(a, b)?;
+            }
         }
         Ok(())
     }

@@ -11,11 +11,12 @@ use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use iv_parser::Severity;
+use iv_parser::{Severity, SourcePos};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::graph::{Graph, Kind, NodeId};
 use crate::registry::Class;
+use crate::remarks::Remarks;
 use crate::scene::{LightModel, MaterialId, Variant};
 use crate::shape::{Attributes, Job, Made, ShapeMaker};
 
@@ -130,6 +131,8 @@ pub struct Variants {
     names: FxHashSet<Arc<str>>,
     /// Materials of instances, all together.
     pub entries: usize,
+    /// The first Switch that gives some.
+    first: SourcePos,
 }
 
 impl Variants {
@@ -152,6 +155,9 @@ impl Variants {
             if shown.is_empty() {
                 let group = node.name.as_deref().unwrap_or("Switch");
                 self.add(format!("{group} none").into());
+            }
+            if self.ranges.is_empty() {
+                self.first = node.pos;
             }
             self.ranges.push(first..self.list.len());
             Looks::From(first as u32)
@@ -181,7 +187,11 @@ impl Variants {
     }
 
     /// Those of Switches that change something.
-    pub fn finish(self) -> Vec<Variant> {
+    pub fn finish(self, remarks: &mut Remarks) -> Vec<Variant> {
+        if self.entries > 0 {
+            let text = "looks that Switches choose are kept, as variants of materials";
+            remarks.add(Severity::Note, "kept", text, "", self.first);
+        }
         let mut list: Vec<Option<Variant>> = self.list.into_iter().map(Some).collect();
         let changes =
             |variant: &Option<Variant>| variant.as_ref().is_some_and(|v| !v.materials.is_empty());

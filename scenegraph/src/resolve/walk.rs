@@ -173,7 +173,7 @@ impl<'g> Walk<'g> {
 
     pub fn finish(mut self) -> (Scene, Vec<Measure>, Remarks) {
         let (mut scene, measures) = self.builder.finish(&mut self.remarks);
-        scene.variants = self.variants.finish();
+        scene.variants = self.variants.finish(&mut self.remarks);
         (scene, measures, self.remarks)
     }
 

@@ -157,7 +157,7 @@ fn models() -> Vec<Model> {
 
 fn all_options() -> Options {
     Options {
-        quantize: Some(Quantize::within(1e-3)),
+        quantize: Some(Quantize::within(1e-5)),
         compress: true,
         instancing: true,
         up: Up::Z,
@@ -254,6 +254,54 @@ fn readers_find_what_is_kept() {
     assert_eq!(String::from_utf8_lossy(&run.stdout).lines().count(), 2);
 }
 
+/// Levels stand in no scene, below nothing, and their limits are in the unit of the output.
+#[test]
+fn levels_are_listed_at_the_finest() {
+    let scene = resolved(HOUSE, &WITH).scene;
+    for (options, ranges) in [
+        (Options::default(), [10.0, 50.0]),
+        (all_options(), [0.1, 0.5]),
+    ] {
+        let mut glb = Vec::new();
+        let images = Images(FileLoader::default());
+        write_glb(&scene, &options, &images, &mut glb).expect("written");
+        let json: Value = serde_json::from_str(&text_of(&glb)).expect("JSON");
+        let nodes = json["nodes"].as_array().expect("nodes");
+        let numbers = |value: &Value| -> Vec<usize> {
+            let list = value.as_array().cloned().unwrap_or_default();
+            list.iter()
+                .filter_map(Value::as_u64)
+                .map(|n| n as usize)
+                .collect()
+        };
+        let mut placed = numbers(&json["scenes"][0]["nodes"]);
+        placed.extend(nodes.iter().flat_map(|node| numbers(&node["children"])));
+        let named = |name: &str| nodes.iter().find(|n| n["name"] == name).expect("a node");
+        let fine = named("Fine");
+        let levels = numbers(&fine["extensions"]["MSFT_lod"]["ids"]);
+        assert_eq!(levels.len(), 2);
+        assert_eq!(nodes[levels[0]]["name"], "Coarse");
+        assert_eq!(nodes[levels[1]], json!({}));
+        assert!(levels.iter().all(|level| !placed.contains(level)));
+        let got = fine["extras"]["iv"]["range"].as_array().expect("ranges");
+        for (got, want) in got.iter().zip(ranges) {
+            assert!((got.as_f64().unwrap_or(0.0) - want).abs() < 1e-9, "{fine}");
+        }
+        // Two spheres of radius 1, their middles 2 apart: a box of 4, 2 and 2.
+        let view = (std::f64::consts::PI / 8.0).tan();
+        let share = |d: f64| std::f64::consts::PI * 6.0 / (2.0 * d * view).powi(2);
+        let coverage = fine["extras"]["MSFT_screencoverage"]
+            .as_array()
+            .expect("shares");
+        for (got, want) in coverage.iter().zip([share(10.0), share(50.0), 0.0]) {
+            let off = (got.as_f64().unwrap_or(9.0) - want).abs();
+            // A sphere's corners are inside it, and a grid moves them.
+            assert!(off <= 0.01 * want, "{got}, {want}");
+        }
+        assert_eq!(coverage.len(), 3);
+    }
+}
+
 /// The text of a glTF file made anew, resolved.
 fn through_text(glb: &[u8]) -> Resolved {
     let nothing = FileLoader::default();
@@ -286,7 +334,7 @@ fn hidden_parts_and_levels_come_back_as_text() {
 }
 
 #[test]
-fn the_source_comes_back_and_an_edit_of_visibility_is_seen() {
+fn the_source_comes_back_and_edits_of_what_is_kept_are_seen() {
     let text = whole(HOUSE);
     let nothing = FileLoader::default();
     let recorder = Recorder::new(&nothing, Path::new("."));
@@ -307,19 +355,29 @@ fn the_source_comes_back_and_an_edit_of_visibility_is_seen() {
     // What an editor writes anew is still the same.
     let respaced = edited(&glb, "\"asset\":", "\"asset\" :");
     assert!(back(&respaced).text == text.as_bytes());
-    let shown = edited(&glb, "\"visible\":false", "\"visible\":true");
-    let files = back(&shown);
-    assert!(files.text != text.as_bytes());
-    let notes: Vec<&str> = files.notes.iter().map(|note| note.code).collect();
-    assert!(notes.contains(&"edited"), "{notes:?}");
+    // Of blue, which only a variant shows.
+    let blue = "\"baseColorFactor\":[0,0,1,1]";
+    for (old, new) in [
+        ("\"visible\":false", "\"visible\":true"),
+        (blue, "\"baseColorFactor\":[0,1,1,1]"),
+    ] {
+        let files = back(&edited(&glb, old, new));
+        assert!(files.text != text.as_bytes(), "{new}");
+        let notes: Vec<&str> = files.notes.iter().map(|note| note.code).collect();
+        assert!(notes.contains(&"edited"), "{new}: {notes:?}");
+    }
+}
+
+/// The JSON of a `.glb`.
+fn text_of(glb: &[u8]) -> String {
+    let length = u32::from_le_bytes([glb[12], glb[13], glb[14], glb[15]]) as usize;
+    String::from_utf8(glb[20..20 + length].to_vec()).expect("UTF-8")
 }
 
 /// A `.glb` with a piece of its text replaced.
 fn edited(glb: &[u8], old: &str, new: &str) -> Vec<u8> {
-    let length =
-        |at: usize| u32::from_le_bytes([glb[at], glb[at + 1], glb[at + 2], glb[at + 3]]) as usize;
-    let json_end = 20 + length(12);
-    let json = String::from_utf8(glb[20..json_end].to_vec()).expect("UTF-8");
+    let json = text_of(glb);
+    let json_end = 20 + json.len();
     assert!(json.contains(old), "{old}");
     let mut json = json.replace(old, new).trim_end().to_owned();
     json += &" ".repeat(json.len().next_multiple_of(4) - json.len());

@@ -149,7 +149,7 @@ pub const ROWS: &[Row] = &[
             Material { diffuseColor 1 1 1 } DEF C Cube { }",
         instances: &["A 0", "B 0", "C 0"],
         variants: &["Red:", "Paint 1: A B"],
-        remarks: &[],
+        remarks: &["kept"],
     },
     Row {
         name: "a Separator ends variants",
@@ -157,7 +157,7 @@ pub const ROWS: &[Row] = &[
             DEF A Cube { } } DEF B Cube { }",
         instances: &["A 0", "B 0"],
         variants: &["R:", "G: A"],
-        remarks: &[],
+        remarks: &["kept"],
     },
     Row {
         name: "a colour behind a Switch keeps the rest of the look",
@@ -165,7 +165,7 @@ pub const ROWS: &[Row] = &[
             BaseColor { rgb 1 1 0 } DEF A Cube { }",
         instances: &["A 0"],
         variants: &["Switch 0:", "Switch 1: A"],
-        remarks: &[],
+        remarks: &["kept"],
     },
     Row {
         name: "each variant changes one Switch; names are told apart",
@@ -174,7 +174,7 @@ pub const ROWS: &[Row] = &[
             DEF A Cube { }",
         instances: &["A 0"],
         variants: &["X: A", "Switch none:", "Switch 0:", "X 2: A"],
-        remarks: &[],
+        remarks: &["kept"],
     },
     Row {
         name: "looks that change nothing are no variants",
@@ -190,8 +190,8 @@ pub const ROWS: &[Row] = &[
             Switch { whichChild 0 USE T Texture2 { } } DEF A Cube { }
             Switch { whichChild 0 Texture2 { } USE T } DEF B Cube { }",
         instances: &["A 0", "B 0"],
-        variants: &["Switch 0:", "Switch 1: A"],
-        remarks: &["hidden"],
+        variants: &["T:", "Switch 1: A"],
+        remarks: &["hidden", "kept"],
     },
     Row {
         name: "colours of vertices are the mesh's",
@@ -208,7 +208,7 @@ pub const ROWS: &[Row] = &[
             Switch { DEF A Cube { } }",
         instances: &["A 0 h"],
         variants: &["Switch 0:", "Switch 1: A"],
-        remarks: &["kept"],
+        remarks: &["kept", "kept"],
     },
     Row {
         name: "text in pixels keeps its size beside a large hidden part",
