@@ -254,6 +254,36 @@ fn readers_find_what_is_kept() {
     assert_eq!(String::from_utf8_lossy(&run.stdout).lines().count(), 2);
 }
 
+/// Who shows a hidden part must be able to hide it again: the part alone is hidden, the Switch is
+/// not, and copies of one part are no batch if they are hidden one by one.
+#[test]
+fn hidden_parts_have_nodes_of_their_own() {
+    let texts = [
+        "Switch { DEF Part Cube { } }".to_owned(),
+        format!("DEF Part Cube {{ }} Switch {{ {} }}", "USE Part ".repeat(6)),
+    ];
+    for (text, parts) in texts.iter().zip([1, 7]) {
+        let scene = resolved(text, &WITH).scene;
+        for options in [Options::default(), all_options()] {
+            let mut glb = Vec::new();
+            let images = Images(FileLoader::default());
+            write_glb(&scene, &options, &images, &mut glb).expect("written");
+            let json: Value = serde_json::from_str(&text_of(&glb)).expect("JSON");
+            let nodes = json["nodes"].as_array().expect("nodes");
+            let hides = |node: &&Value| node["extensions"]["KHR_node_visibility"].is_object();
+            let switch = nodes.iter().find(|n| n["extras"]["iv"]["type"] == "Switch");
+            assert!(switch.is_some_and(|node| !hides(&node)), "{text}");
+            let named = nodes.iter().filter(|n| n["name"] == "Part");
+            let (hidden, shown): (Vec<&Value>, Vec<&Value>) = named.partition(hides);
+            assert_eq!(
+                (hidden.len(), shown.len()),
+                (parts.min(6), parts / 7),
+                "{text}"
+            );
+        }
+    }
+}
+
 /// Levels stand in no scene, below nothing, and their limits are in the unit of the output.
 #[test]
 fn levels_are_listed_at_the_finest() {
