@@ -55,7 +55,18 @@ function centered(model) {
   return { group, radius };
 }
 
+/** Takes out what the file hides (KHR_node_visibility): three.js does not know of it. */
+function dropHidden(model) {
+  const hidden = [];
+  model.traverse((object) => {
+    const visibility = object.userData.gltfExtensions?.KHR_node_visibility;
+    if (visibility?.visible === false) hidden.push(object);
+  });
+  hidden.forEach((object) => object.removeFromParent());
+}
+
 function show({ scene: model }) {
+  dropHidden(model);
   const renderer = new WebGLRenderer({ antialias: true, alpha: true });
   renderer.setPixelRatio(window.devicePixelRatio);
   document.body.append(renderer.domElement);

@@ -1,7 +1,7 @@
 //! The scene's box in the world: what lights and cameras without useful numbers go by.
 
 use glam::{DAffine3, DVec3};
-use scenegraph::scene::{Mesh, Scene};
+use scenegraph::scene::{Instance, Mesh, Scene, Shown, is_below};
 
 use crate::layout::Needs;
 
@@ -13,30 +13,42 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// Of all instances, from the corners of their meshes' boxes; `None` when there are none.
+    /// Of all instances that are shown, from the corners of their meshes' boxes; `None` when there
+    /// are none.
     pub(crate) fn of(scene: &Scene, needs: &[Option<Needs>]) -> Option<Self> {
-        let mut bounds: Option<Self> = None;
+        let not_shown = scene.nodes_not_shown();
+        let shown = |i: &&Instance| !is_below(i.placement.node, &not_shown);
+        let instances = scene.instances.iter().filter(shown);
+        instances.fold(None, |bounds, instance| {
+            union(bounds, Self::of_instance(scene, needs, instance))
+        })
+    }
+
+    /// Of what each node shows at any depth.
+    pub(crate) fn by_node(scene: &Scene, needs: &[Option<Needs>]) -> Vec<Option<Self>> {
+        let mut bounds = vec![None; scene.nodes.len()];
         for instance in &scene.instances {
-            let Some(needs) = &needs[instance.mesh.index()] else {
-                continue;
-            };
-            let mesh = &scene.meshes[instance.mesh.index()];
-            for p_in_world in corners(mesh, needs, &instance.placement.world_from_local) {
-                if p_in_world.is_finite() {
-                    bounds = Some(bounds.map_or(
-                        Self {
-                            min: p_in_world,
-                            max: p_in_world,
-                        },
-                        |b| Self {
-                            min: b.min.min(p_in_world),
-                            max: b.max.max(p_in_world),
-                        },
-                    ));
-                }
+            if let Some(node) = instance.placement.node {
+                let slot = &mut bounds[node.index()];
+                *slot = union(*slot, Self::of_instance(scene, needs, instance));
+            }
+        }
+        for (i, node) in scene.nodes.iter().enumerate().rev() {
+            if let (Some(parent), Shown::Always) = (node.parent, node.shown) {
+                bounds[parent.index()] = union(bounds[parent.index()], bounds[i]);
             }
         }
         bounds
+    }
+
+    fn of_instance(scene: &Scene, needs: &[Option<Needs>], instance: &Instance) -> Option<Self> {
+        let needs = needs[instance.mesh.index()].as_ref()?;
+        let mesh = &scene.meshes[instance.mesh.index()];
+        let corners = corners(mesh, needs, &instance.placement.world_from_local);
+        let finite = corners.into_iter().filter(|p| p.is_finite());
+        finite.fold(None, |bounds, p| {
+            union(bounds, Some(Self { min: p, max: p }))
+        })
     }
 
     pub(crate) fn center(&self) -> DVec3 {
@@ -50,6 +62,16 @@ impl Bounds {
 
     pub(crate) fn corners(&self) -> [DVec3; 8] {
         corners_between(self.min, self.max)
+    }
+}
+
+fn union(a: Option<Bounds>, b: Option<Bounds>) -> Option<Bounds> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(Bounds {
+            min: a.min.min(b.min),
+            max: a.max.max(b.max),
+        }),
+        (one, None) | (None, one) => one,
     }
 }
 

@@ -8,6 +8,7 @@ use scenegraph::scene::{
     Material, Scene, Text, Texture, TextureModel, TextureSource, ViewportMapping,
 };
 
+use crate::alternatives::Limits;
 use crate::json::Json;
 use crate::{Options, Up};
 
@@ -199,15 +200,27 @@ pub(crate) struct Scope {
     pub(crate) environment: u32,
 }
 
+/// What Inventor says of a node beside its notes.
+pub(crate) struct Said<'a> {
+    pub(crate) class: Option<&'a str>,
+    pub(crate) link: Option<&'a Link>,
+    pub(crate) text: Option<&'a Text>,
+    pub(crate) scope: Scope,
+}
+
 pub(crate) fn node<'a>(
     json: &mut Json,
-    class: Option<&str>,
     notes: impl IntoIterator<Item = &'a str>,
-    link: Option<&Link>,
-    text: Option<&Text>,
-    scope: Scope,
+    said: &Said<'_>,
+    limits: &Limits,
 ) {
-    iv(json, |json| {
+    let Said {
+        class,
+        link,
+        text,
+        scope,
+    } = *said;
+    let body = |json: &mut Json| {
         if let Some(class) = class {
             json.key("type").str(class);
         }
@@ -221,8 +234,13 @@ pub(crate) fn node<'a>(
                 json.key("facesViewer").bool(true);
             }
         }
+        limits.write_fields(json);
         index(json, "lightSet", scope.light_set);
         index(json, "environment", scope.environment);
+    };
+    json.object_unless_empty("extras", |json| {
+        limits.write_coverage(json);
+        json.object_unless_empty("iv", body);
     });
 }
 

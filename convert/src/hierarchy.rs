@@ -12,18 +12,22 @@ use std::sync::Arc;
 
 use geometry::transform::{Decomposition, Trs, decompose};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use scenegraph::scene::{Link, NodeId, Placement, Scene, Text};
+use scenegraph::scene::{Link, NodeId, Placement, Scene, Shown, Text};
 
-use crate::extras::Scope;
+use crate::alternatives::{self, Limits, View};
+use crate::bounds::Bounds;
+use crate::extras::{Said, Scope};
 use crate::formats::Formats;
 use crate::frame::{is_rotation, stretch, uniform_scale};
 use crate::instancing::{self, Copies, Frames, alike};
 use crate::json::Json;
+use crate::layout::Needs;
 use crate::{camera, extras, light};
 
 /// What a node shows, by glTF index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Content {
+    #[default]
     Nothing,
     Mesh(u32),
     /// Copies of a mesh, and the number of their batch.
@@ -51,6 +55,7 @@ pub(crate) struct Origin {
 }
 
 /// A node being put together.
+#[derive(Default)]
 struct Draft<'s> {
     origin: Origin,
     name: Option<&'s str>,
@@ -62,6 +67,10 @@ struct Draft<'s> {
     parent_from_local: DAffine3,
     content: Content,
     children: Vec<usize>,
+    is_hidden: bool,
+    /// Coarser levels, which are no children, and their limits.
+    levels: Vec<usize>,
+    limits: Limits,
 }
 
 /// The nodes to be written.
@@ -79,9 +88,15 @@ enum Member {
 }
 
 impl<'s> Hierarchy<'s> {
-    /// `meshes` are the glTF meshes of the instances, `formats` those of the scene's meshes.
-    pub(crate) fn new(scene: &'s Scene, formats: &[Formats], meshes: &[u32]) -> Self {
-        let mut builder = Builder::new(scene);
+    /// `meshes` are the glTF meshes of the instances, `formats` and `needs` those of the scene's
+    /// meshes.
+    pub(crate) fn new(
+        scene: &'s Scene,
+        formats: &[Formats],
+        needs: &[Option<Needs>],
+        meshes: &[u32],
+    ) -> Self {
+        let mut builder = Builder::new(scene, needs);
         let mut texts = scene.texts.iter().peekable();
         for (i, (instance, &mesh)) in scene.instances.iter().zip(meshes).enumerate() {
             let origin = scene.meshes[instance.mesh.index()].origin;
@@ -120,6 +135,15 @@ impl<'s> Hierarchy<'s> {
         builder.finish()
     }
 
+    /// Whether some node is hidden, and whether some has levels.
+    pub(crate) fn alternatives(&self) -> [bool; 2] {
+        let any = |has: fn(&Draft<'_>) -> bool| self.drafts.iter().any(has);
+        [
+            any(|draft| draft.is_hidden),
+            any(|draft| !draft.levels.is_empty()),
+        ]
+    }
+
     /// Whether there is nothing to write.
     pub(crate) fn is_empty(&self) -> bool {
         self.roots.is_empty()
@@ -148,12 +172,14 @@ impl<'s> Hierarchy<'s> {
                     None => kept.extend(group),
                 }
             }
-            for &child in kept
-                .iter()
-                .filter(|&&child| !self.drafts[child].children.is_empty())
-            {
-                let world_from_local = world_from_parent * self.drafts[child].parent_from_local;
-                open.push((Some(child), world_from_local));
+            for &child in &kept {
+                let draft = &self.drafts[child];
+                for &node in std::iter::once(&child).chain(&draft.levels) {
+                    let node = (node, &self.drafts[node]);
+                    if !node.1.children.is_empty() {
+                        open.push((Some(node.0), world_from_parent * node.1.parent_from_local));
+                    }
+                }
             }
             match parent {
                 None => self.roots = kept,
@@ -185,15 +211,11 @@ impl<'s> Hierarchy<'s> {
         Some(Draft {
             name: first.name,
             class: first.class,
-            notes: Vec::new(),
-            link: None,
-            text: None,
             scope: first.scope,
-            // It stands for no single place of the source.
-            origin: Origin::default(),
+            // It has no origin: it stands for no single place of the source.
             parent_from_local: DAffine3::from_translation(frames.middle),
             content: Content::Copies(mesh, batch),
-            children: Vec::new(),
+            ..Draft::default()
         })
     }
 
@@ -252,6 +274,7 @@ impl<'s> Hierarchy<'s> {
                 Some(inner) => queue.push(Part::Inner(draft, inner)),
                 None => queue.extend(node.children.iter().copied().map(Part::Whole)),
             }
+            queue.extend(node.levels_of(!is_inner).map(Part::Whole));
             origins.push(Origin {
                 is_split: is_inner || splits_to.is_some(),
                 ..node.origin
@@ -286,17 +309,31 @@ impl<'s> Hierarchy<'s> {
                 json.key("name").str(name);
             }
             write_transform(json, &trs);
+            let whole = inner_rotation.is_none();
             match splits_to {
                 Some(inner) => queue.push(Part::Inner(draft, inner)),
                 None => {
-                    node.content.write(json, &self.copies, first_copy);
+                    node.content.write(json);
                     queue.extend(node.children.iter().copied().map(Part::Whole));
                 }
             }
-            json.array_unless_empty("children", first_child..queue.len(), Json::usize);
-            if with_extras && inner_rotation.is_none() {
-                let notes = node.notes.iter().copied();
-                extras::node(json, node.class, notes, node.link, node.text, node.scope);
+            let children = first_child..queue.len();
+            queue.extend(node.levels_of(whole).map(Part::Whole));
+            let levels = children.end..queue.len();
+            json.object_unless_empty("extensions", |json| {
+                if splits_to.is_none() {
+                    node.content.write_extension(json, &self.copies, first_copy);
+                }
+                if node.is_hidden && whole {
+                    alternatives::write_hidden(json);
+                }
+                if !levels.is_empty() {
+                    alternatives::write_levels(json, levels);
+                }
+            });
+            json.array_unless_empty("children", children, Json::usize);
+            if whole {
+                node.write_extras(json, with_extras);
             }
         });
     }
@@ -309,19 +346,26 @@ enum Part {
     Inner(usize, DQuat),
 }
 
-struct Builder<'s> {
+struct Builder<'s, 'n> {
     scene: &'s Scene,
     drafts: Vec<Draft<'s>>,
     /// By group; the last entry is the world.
     members: Vec<Vec<Member>>,
+    needs: &'n [Option<Needs>],
+    view: View,
+    /// The boxes in the world of what groups show, made when they are asked for.
+    bounds: Option<Vec<Option<Bounds>>>,
 }
 
-impl<'s> Builder<'s> {
-    fn new(scene: &'s Scene) -> Self {
+impl<'s, 'n> Builder<'s, 'n> {
+    fn new(scene: &'s Scene, needs: &'n [Option<Needs>]) -> Self {
         let mut builder = Self {
             scene,
             drafts: Vec::with_capacity(scene.instances.len()),
             members: vec![Vec::new(); scene.nodes.len() + 1],
+            needs,
+            view: View::of(scene),
+            bounds: None,
         };
         for (i, node) in scene.nodes.iter().enumerate() {
             builder.members_of(node.parent).push(Member::Group(i));
@@ -349,14 +393,9 @@ impl<'s> Builder<'s> {
                 ..Origin::default()
             },
             name: name.as_deref(),
-            class: None,
-            notes: Vec::new(),
-            link: None,
-            scope: Scope::default(),
-            text: None,
             parent_from_local,
             content,
-            children: Vec::new(),
+            ..Draft::default()
         });
     }
 
@@ -411,7 +450,7 @@ impl<'s> Builder<'s> {
         let mut done: Vec<Option<usize>> = vec![None; self.scene.nodes.len()];
         let world = self.members.pop().unwrap_or_default();
         for i in (0..self.scene.nodes.len()).rev() {
-            let children = resolved(&std::mem::take(&mut self.members[i]), &done);
+            let children = self.children_of(i, &done);
             done[i] = self.put_together(i, children);
         }
         let roots = resolved(&world, &done);
@@ -420,6 +459,46 @@ impl<'s> Builder<'s> {
             roots,
             copies: Copies::default(),
         }
+    }
+
+    /// The children of a group; where some of its members are coarser levels, the finest alone, with
+    /// which they go.
+    fn children_of(&mut self, group: usize, done: &[Option<usize>]) -> Vec<usize> {
+        let mut members = std::mem::take(&mut self.members[group]);
+        let nodes = &self.scene.nodes;
+        let level = |member: &Member| match *member {
+            Member::Group(group) => Some((done[group]?, nodes[group].level()?)),
+            Member::Item(_) => None,
+        };
+        let (levels, coarser): (Vec<_>, Vec<_>) = members.iter().filter_map(level).unzip();
+        if levels.is_empty() {
+            return resolved(&members, done);
+        }
+        members.retain(|member| level(member).is_none());
+        let finest = resolved(&members, done);
+        let own = match *finest {
+            [only] if !self.drafts[only].is_hidden && self.drafts[only].levels.is_empty() => only,
+            _ => {
+                self.drafts.push(Draft {
+                    children: finest,
+                    ..Draft::default()
+                });
+                self.drafts.len() - 1
+            }
+        };
+        let limits = Limits::new(coarser, self.radius_of(group), &self.view);
+        self.drafts[own].levels = levels;
+        self.drafts[own].limits = limits;
+        vec![own]
+    }
+
+    /// Half the diagonal of the box in the world of what a group shows; 0 for nothing.
+    fn radius_of(&mut self, group: usize) -> f64 {
+        let (scene, needs) = (self.scene, self.needs);
+        let bounds = self
+            .bounds
+            .get_or_insert_with(|| Bounds::by_node(scene, needs));
+        bounds[group].map_or(0.0, |bounds| bounds.radius())
     }
 
     /// The draft of a group: its only child, its own, or none when it says and holds nothing.
@@ -435,14 +514,16 @@ impl<'s> Builder<'s> {
             class: extras::notable_class(&node.class),
             notes: node.notes.iter().map(|note| &**note).collect(),
             link: node.link.as_deref(),
-            scope: Scope::default(),
-            text: None,
             parent_from_local: node.parent_from_local,
-            content: Content::Nothing,
+            is_hidden: node.shown == Shown::Hidden,
             children,
+            ..Draft::default()
         };
         match *draft.children {
-            [] if draft.name.is_none() && draft.notes.is_empty() => return None,
+            // An empty level says that nothing is shown from there on.
+            [] if draft.name.is_none() && draft.notes.is_empty() && node.level().is_none() => {
+                return None;
+            }
             [only] if draft.can_merge_with(&self.drafts[only]) => {
                 self.drafts[only].take_in(draft);
                 return Some(only);
@@ -471,6 +552,8 @@ impl<'s> Draft<'s> {
                 if self.children.is_empty()
                     && self.notes.is_empty()
                     && self.link.is_none()
+                    && !self.is_hidden
+                    && self.levels.is_empty()
                     && self.text.is_none()
                     && self.parent_from_local.matrix3.determinant() > 0.0 =>
             {
@@ -482,7 +565,32 @@ impl<'s> Draft<'s> {
 }
 
 impl Draft<'_> {
+    /// The coarser levels of a node; of one that becomes two, the outer one has them.
+    fn levels_of(&self, is_outer: bool) -> impl Iterator<Item = usize> {
+        self.levels.iter().copied().filter(move |_| is_outer)
+    }
+
+    fn write_extras(&self, json: &mut Json, with_extras: bool) {
+        if with_extras {
+            let notes = self.notes.iter().copied();
+            let (link, text) = (self.link, self.text);
+            let node = Said {
+                class: self.class,
+                link,
+                text,
+                scope: self.scope,
+            };
+            extras::node(json, notes, &node, &self.limits);
+        } else {
+            json.object_unless_empty("extras", |json| self.limits.write_coverage(json));
+        }
+    }
+
     fn can_merge_with(&self, child: &Self) -> bool {
+        // A part that is switched keeps a node of its own, and so does what chooses.
+        if child.is_hidden || !child.levels.is_empty() {
+            return false;
+        }
         let both = |mine: bool, childs: bool| mine && childs;
         if both(self.name.is_some(), child.name.is_some())
             || both(self.class.is_some(), child.class.is_some())
@@ -511,6 +619,7 @@ impl<'s> Draft<'s> {
         self.name = group.name.or(self.name);
         self.class = group.class.or(self.class);
         self.link = group.link.or(self.link);
+        self.is_hidden |= group.is_hidden;
         if self.notes.is_empty() {
             self.notes = group.notes;
         }
@@ -518,19 +627,22 @@ impl<'s> Draft<'s> {
 }
 
 impl Content {
-    fn write(self, json: &mut Json, copies: &Copies, first_copy: usize) {
+    fn write(self, json: &mut Json) {
         match self {
-            Self::Copies(index, batch) => {
-                json.key("mesh").u64(index.into());
-                copies.write_batch(json, batch, first_copy);
-            }
-            Self::Nothing => {}
-            Self::Mesh(index) => json.key("mesh").u64(index.into()),
+            Self::Mesh(index) | Self::Copies(index, _) => json.key("mesh").u64(index.into()),
             Self::Camera(index) => json.key("camera").u64(index.into()),
-            Self::Light(index) => json.key("extensions").object(|json| {
-                json.key("KHR_lights_punctual")
-                    .object(|json| json.key("light").u64(index.into()));
-            }),
+            Self::Nothing | Self::Light(_) => {}
+        }
+    }
+
+    /// What of it is an extension of the node.
+    fn write_extension(self, json: &mut Json, copies: &Copies, first_copy: usize) {
+        match self {
+            Self::Copies(_, batch) => copies.write_batch(json, batch, first_copy),
+            Self::Light(index) => json
+                .key("KHR_lights_punctual")
+                .object(|json| json.key("light").u64(index.into())),
+            Self::Nothing | Self::Mesh(_) | Self::Camera(_) => {}
         }
     }
 }

@@ -177,18 +177,16 @@ impl Copies {
     /// The extension of a node; the copies' accessors begin at `first_accessor`.
     pub(crate) fn write_batch(&self, json: &mut Json, batch: usize, first_accessor: usize) {
         let batch = &self.batches[batch];
-        json.key("extensions").object(|json| {
-            json.key(EXTENSION).object(|json| {
-                json.key("attributes").object(|json| {
-                    json.key("TRANSLATION")
-                        .usize(first_accessor + batch.translations);
-                    if let Some(rotations) = batch.rotations {
-                        json.key("ROTATION").usize(first_accessor + rotations);
-                    }
-                    if let Some(scales) = batch.scales {
-                        json.key("SCALE").usize(first_accessor + scales);
-                    }
-                });
+        json.key(EXTENSION).object(|json| {
+            json.key("attributes").object(|json| {
+                json.key("TRANSLATION")
+                    .usize(first_accessor + batch.translations);
+                if let Some(rotations) = batch.rotations {
+                    json.key("ROTATION").usize(first_accessor + rotations);
+                }
+                if let Some(scales) = batch.scales {
+                    json.key("SCALE").usize(first_accessor + scales);
+                }
             });
         });
     }

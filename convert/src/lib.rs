@@ -21,6 +21,7 @@
 //! only.
 
 mod alike;
+mod alternatives;
 mod base64;
 mod binary;
 mod blocks;

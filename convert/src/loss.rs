@@ -258,7 +258,10 @@ pub fn losses_markdown() -> String {
          one is darkened, because no glTF factor exceeds 1. A vertex colour is written as it is, \
          so it is darkened by every highlight.\n\
          - The link of a `WWWAnchor` or `Anchor` cannot be followed in glTF: addresses, description, \
-         parameters and `map` are in the node's `extras.iv.link`.\n",
+         parameters and `map` are in the node's `extras.iv.link`.\n\
+         - Of a Switch the chosen children are written, of levels of detail the finest. With \
+         `--alternatives` the others are kept; [OPTIONS.md](OPTIONS.md) says how, and what of them is \
+         left out.\n",
     );
     out
 }

@@ -2,6 +2,7 @@
 
 use scenegraph::scene::{Material, MaterialId, Mesh, MeshId, Topology};
 
+use crate::alternatives;
 use crate::color::u16_from_unit;
 use crate::json::Json;
 use crate::layout::MeshAccessors;
@@ -98,11 +99,13 @@ impl Attributes {
 }
 
 /// Geometry with a material: in glTF the material belongs to the mesh.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct GltfMesh {
     pub(crate) source: MeshId,
     pub(crate) material: u32,
     pub(crate) attributes: Attributes,
+    /// In each variant; none if all are alike.
+    pub(crate) in_variants: Vec<u32>,
 }
 
 impl GltfMesh {
@@ -130,6 +133,9 @@ impl GltfMesh {
                 // 4, the default.
                 Topology::Triangles => {}
             }
+            if !self.in_variants.is_empty() {
+                alternatives::write_mappings(json, &self.in_variants);
+            }
         };
         json.object(|json| {
             json.key("primitives").array(|json| json.object(primitive));
@@ -142,8 +148,8 @@ pub(crate) fn can_be_lit(mesh: &Mesh) -> bool {
     mesh.topology == Topology::Triangles || !mesh.normals.is_empty()
 }
 
-/// Key of a [`GltfMesh`].
-pub(crate) type MeshUse = (MeshId, MaterialId);
+/// Key of a [`GltfMesh`]: what it is made of, and the materials in other variants.
+pub(crate) type MeshUse = (MeshId, MaterialId, Vec<(u32, MaterialId)>);
 
 /// Whether a texture can show.
 pub(crate) fn shows_texture(mesh: &Mesh, material: &Material) -> bool {

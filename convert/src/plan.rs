@@ -17,7 +17,9 @@ use crate::mesh::{Attributes, Facts, GltfMesh, MeshUse, can_be_lit, shows_textur
 use crate::prepare::Prepared;
 use crate::remarks::Remarks;
 use crate::texture::{TextureLoader, Textures};
-use crate::{Container, Error, Materials, Options, Report, binary, camera, extras, light};
+use crate::{
+    Container, Error, Materials, Options, Report, alternatives, binary, camera, extras, light,
+};
 
 /// A conversion with everything decided and measured: which materials, meshes, nodes and images
 /// there are, and where each number goes.
@@ -50,10 +52,12 @@ impl<'s> Plan<'s> {
     ) -> Result<Self, Error> {
         let scene = &*prepared.scene;
         let mut gathering = Gathering::new(scene, &prepared.formats, options, loader);
+        let mut looks = Looks::new(scene);
         let meshes_of_instances: Vec<u32> = scene
             .instances
             .iter()
-            .map(|instance| gathering.instance(instance))
+            .enumerate()
+            .map(|(i, instance)| gathering.instance(instance, looks.next(i)))
             .collect();
         let Gathering {
             mut textures,
@@ -70,7 +74,7 @@ impl<'s> Plan<'s> {
             Container::GltfBin => options.max_bin_bytes,
         };
         let image_lens = (0..textures.image_count()).map(|i| textures.image_bytes(i).len() as u64);
-        let mut hierarchy = Hierarchy::new(scene, &prepared.formats, &meshes_of_instances);
+        let mut hierarchy = Hierarchy::new(scene, &prepared.formats, &needs, &meshes_of_instances);
         if options.instancing {
             let tolerance = options.quantize.map(|q| q.tolerance * TOLERANCE_SHARE);
             hierarchy.gather_copies(&boxes(&meshes, &needs), tolerance);
@@ -151,7 +155,7 @@ impl<'s> Plan<'s> {
             });
             json.array_unless_empty("extensionsUsed", self.extensions(), Json::str);
             json.array_unless_empty("extensionsRequired", self.required(), Json::str);
-            self.write_lights(json);
+            json.object_unless_empty("extensions", |json| self.write_extensions(json));
             let first_copy = self.layout.accessors.len();
             nodes = self
                 .hierarchy
@@ -178,22 +182,23 @@ impl<'s> Plan<'s> {
         (json.into_bytes(), nodes)
     }
 
-    fn write_lights(&self, json: &mut Json) {
+    fn write_extensions(&self, json: &mut Json) {
+        if !self.scene.variants.is_empty() {
+            alternatives::write_variants(json, self.scene);
+        }
         if self.scene.lights.is_empty() {
             return;
         }
-        json.key("extensions").object(|json| {
-            json.key("KHR_lights_punctual").object(|json| {
-                let in_sets = extras::has_light_sets(self.scene);
-                let lights = self.scene.lights.iter().enumerate();
-                json.array_unless_empty("lights", lights, |json, (number, light)| {
-                    let environment = &self.scene.environments[light.environment.index()];
-                    let bounds = self.bounds.as_ref();
-                    let (unit, extras) = (self.options.lights, self.options.extras);
-                    let number = in_sets.then_some(number);
-                    let extras = extras.then_some(number);
-                    light::write(json, light, environment, bounds, unit, extras);
-                });
+        json.key("KHR_lights_punctual").object(|json| {
+            let in_sets = extras::has_light_sets(self.scene);
+            let lights = self.scene.lights.iter().enumerate();
+            json.array_unless_empty("lights", lights, |json, (number, light)| {
+                let environment = &self.scene.environments[light.environment.index()];
+                let bounds = self.bounds.as_ref();
+                let (unit, extras) = (self.options.lights, self.options.extras);
+                let number = in_sets.then_some(number);
+                let extras = extras.then_some(number);
+                light::write(json, light, environment, bounds, unit, extras);
             });
         });
     }
@@ -229,6 +234,7 @@ impl<'s> Plan<'s> {
 
     fn extensions(&self) -> impl Iterator<Item = &'static str> {
         let any = |test: fn(&GltfMaterial) -> bool| self.materials.iter().any(test);
+        let [hides, has_levels] = self.hierarchy.alternatives();
         let used = [
             ("EXT_mesh_gpu_instancing", !self.hierarchy.copies.is_empty()),
             ("EXT_meshopt_compression", self.is_compressed()),
@@ -240,7 +246,10 @@ impl<'s> Plan<'s> {
             ),
             ("KHR_materials_specular", any(|m| !m.unlit && !m.is_simple)),
             ("KHR_materials_unlit", any(|m| m.unlit)),
+            (alternatives::VARIANTS, !self.scene.variants.is_empty()),
             ("KHR_mesh_quantization", self.is_quantized()),
+            (alternatives::VISIBILITY, hides),
+            (alternatives::LEVELS, has_levels),
         ];
         used.into_iter()
             .filter(|(_, used)| *used)
@@ -254,6 +263,34 @@ pub(crate) struct Origins {
     pub(crate) nodes: Vec<Origin>,
     pub(crate) materials: Vec<MaterialId>,
     pub(crate) meshes: Vec<MeshId>,
+}
+
+/// The materials that instances have in variants, asked for in the order of the instances.
+struct Looks<'s> {
+    rest: Vec<&'s [(u32, MaterialId)]>,
+}
+
+impl<'s> Looks<'s> {
+    fn new(scene: &'s Scene) -> Self {
+        let rest = scene.variants.iter().map(|v| v.materials.as_slice());
+        Self {
+            rest: rest.collect(),
+        }
+    }
+
+    /// By variant, those that have one of their own.
+    fn next(&mut self, instance: usize) -> Vec<(u32, MaterialId)> {
+        let mut found = Vec::new();
+        for (variant, rest) in self.rest.iter_mut().enumerate() {
+            if let [(at, material), behind @ ..] = *rest
+                && *at as usize == instance
+            {
+                found.push((variant as u32, *material));
+                *rest = behind;
+            }
+        }
+        found
+    }
 }
 
 /// The corners of the boxes of meshes, in the numbers that are stored.
@@ -308,7 +345,7 @@ impl<'s> Gathering<'s> {
     }
 
     /// The glTF mesh of an instance.
-    fn instance(&mut self, instance: &Instance) -> u32 {
+    fn instance(&mut self, instance: &Instance, in_variants: Vec<(u32, MaterialId)>) -> u32 {
         let source = &self.scene.meshes[instance.mesh.index()];
         if source.topology == Topology::Triangles {
             self.triangles_drawn += source.primitive_count() as u64;
@@ -319,7 +356,7 @@ impl<'s> Gathering<'s> {
             attributes: Attributes::default(),
         });
         let colors = needs.facts.colors;
-        let key = (instance.mesh, instance.material);
+        let key = (instance.mesh, instance.material, in_variants);
         let mesh = match self.mesh_of.get(&key) {
             Some(&known) => known,
             None => self.add_mesh(key),
@@ -331,24 +368,34 @@ impl<'s> Gathering<'s> {
     }
 
     fn add_mesh(&mut self, key: MeshUse) -> u32 {
-        let (source, _) = key;
-        let material = self.material(key);
+        let (source, own, others) = &key;
+        let material = self.material(*source, *own);
+        let mut in_variants = Vec::new();
+        if !others.is_empty() {
+            in_variants.resize(self.scene.variants.len(), material);
+            for &(variant, other) in others {
+                in_variants[variant as usize] = self.material(*source, other);
+            }
+        }
         let mesh = &self.scene.meshes[source.index()];
-        let attributes = Attributes::read_by(&self.materials[material as usize], mesh);
+        let all = in_variants.iter().chain([&material]);
+        let read = all.map(|&m| Attributes::read_by(&self.materials[m as usize], mesh));
+        let attributes = read.fold(Attributes::default(), Attributes::union);
         if let Some(needs) = &mut self.needs[source.index()] {
             needs.attributes = needs.attributes.union(attributes);
         }
         let index = self.meshes.len() as u32;
         self.meshes.push(GltfMesh {
-            source,
+            source: *source,
             material,
             attributes,
+            in_variants,
         });
         self.mesh_of.insert(key, index);
         index
     }
 
-    fn material(&mut self, (mesh, material): MeshUse) -> u32 {
+    fn material(&mut self, mesh: MeshId, material: MaterialId) -> u32 {
         let source = &self.scene.materials[material.index()];
         let surroundings = self.surroundings(mesh, material);
         if let Some(&known) = self.material_of.get(&(material, surroundings)) {

@@ -1,7 +1,7 @@
 //! The guarantees of the scene that the writer leans on, checked in one cheap pass, so that a
 //! scene made by hand cannot make it fail later.
 
-use scenegraph::scene::{Mesh, Placement, Scene, Topology};
+use scenegraph::scene::{MaterialId, Mesh, Placement, Scene, Topology};
 
 use crate::Error;
 
@@ -28,6 +28,21 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Error> {
             placed(&light.placement) && light.environment.index() < scene.environments.len()
         }) && scene.cameras.iter().all(|camera| placed(&camera.placement)),
         "a light or camera refers to something that is not there",
+    )?;
+    ensure(
+        (scene.nodes.iter()).all(|node| node.level().is_none() || node.parent.is_some()),
+        "a level of detail has no group around it",
+    )?;
+    ensure(
+        scene.variants.iter().all(|variant| {
+            let in_range = |&(instance, material): &(u32, MaterialId)| {
+                (instance as usize) < scene.instances.len()
+                    && material.index() < scene.materials.len()
+            };
+            variant.materials.iter().all(in_range)
+                && variant.materials.is_sorted_by(|a, b| a.0 < b.0)
+        }),
+        "a variant refers to something that is not there",
     )?;
     let mut textures = scene
         .materials

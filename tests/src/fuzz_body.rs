@@ -8,6 +8,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use iv_parser::{Encoding, Tree};
+use scenegraph::scene::is_below;
 use scenegraph::{
     FileLoader, Geometry, RegistryLayout, ResolveLimits, ResolveOptions, Resolved, load,
 };
@@ -97,15 +98,32 @@ pub fn resolve_within(bytes: &[u8], limits: ResolveLimits) -> Resolved {
     let graph = load(bytes, "input.iv", Path::new("."), &loader);
     let options = |geometry| ResolveOptions {
         geometry,
-        like_coin: false,
-        chord: None,
         limits,
+        ..ResolveOptions::default()
     };
     let mut resolved = scenegraph::resolve(&graph, &options(Geometry::Build));
     assert_eq!(resolved.scene.check(), []);
     let measured = scenegraph::resolve(&graph, &options(Geometry::Measure));
     check_measures(&resolved, &measured);
     resolved.diagnostics.splice(0..0, graph.diagnostics);
+    resolved
+}
+
+/// As [`resolve`], with what the file has besides what it shows.
+///
+/// # Panics
+///
+/// When that does not hold.
+pub fn resolve_alternatives(bytes: &[u8]) -> Resolved {
+    let loader = FileLoader::default();
+    let graph = load(bytes, "input.iv", Path::new("."), &loader);
+    let options = ResolveOptions {
+        alternatives: true,
+        limits: LIMITS,
+        ..ResolveOptions::default()
+    };
+    let resolved = scenegraph::resolve(&graph, &options);
+    assert_eq!(resolved.scene.check(), []);
     resolved
 }
 
@@ -157,8 +175,11 @@ pub fn convert(resolved: &Resolved) {
     if let Err(error) = gltf::Gltf::from_slice(&bytes) {
         panic!("written, but not readable: {error}");
     }
+    let not_shown = scene.nodes_not_shown();
+    let instances = scene.instances.iter();
+    let shown = instances.filter(|i| !is_below(i.placement.node, &not_shown));
     match read_gltf(&bytes) {
-        Ok(read) => assert_eq!(read.scene.instances.len(), scene.instances.len()),
+        Ok(read) => assert_eq!(read.scene.instances.len(), shown.count()),
         Err(error) => panic!("written, but not read back: {error}"),
     }
 }

@@ -95,6 +95,7 @@ pub fn resolve(bytes: &[u8]) {
 pub fn convert(bytes: &[u8]) {
     let bytes = cut(bytes);
     fuzz_body::convert(&fuzz_body::resolve(bytes));
+    fuzz_body::convert(&fuzz_body::resolve_alternatives(bytes));
     // Any answer is right.
     let _ = fuzz_body::read_gltf(bytes);
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, clippy::panic)]
 
 mod cpu {
+    mod alternatives;
     mod binary;
     mod corpus;
     mod determinism;

@@ -221,7 +221,9 @@ impl Args {
             );
         }
         let usual = Options::default();
-        let shapes_gltf = self.choices.apply(usual.clone()) != usual || self.round_trip;
+        let shapes_gltf = self.choices.apply(usual.clone()) != usual
+            || self.choices.alternatives
+            || self.round_trip;
         if format == Format::Iv && shapes_gltf {
             return Err(
                 "options of how the glTF is made, and --round-trip, have no effect on .iv"
@@ -258,7 +260,7 @@ mod tests {
 
     #[test]
     fn extension_or_option_choose_the_format() {
-        let rows: [(&[&str], Option<Format>); 8] = [
+        let rows: [(&[&str], Option<Format>); 10] = [
             (&[], Some(Format::Glb)),
             (&["--format", "gltf"], Some(Format::Gltf)),
             (&["-o", "b.GLTF"], Some(Format::Gltf)),
@@ -267,6 +269,8 @@ mod tests {
             (&["-o", "b.glb", "--format", "glb"], Some(Format::Glb)),
             (&["-o", "b.glb", "--format", "iv"], None),
             (&["-o", "b.obj"], None),
+            (&["-o", "b.html", "--alternatives"], Some(Format::Html)),
+            (&["-o", "b.iv", "--alternatives"], None),
         ];
         for (options, want) in rows {
             let words = ["ivconvert", "a.iv"].iter().chain(options);

@@ -51,6 +51,12 @@ pub struct Choices {
     #[arg(long)]
     pub instancing: bool,
 
+    /// Keeps what the model has besides what it shows: children that Switches hide
+    /// (KHR_node_visibility), coarser levels of detail (MSFT_lod), and materials that Switches choose
+    /// (KHR_materials_variants). Viewers that do not know KHR_node_visibility show the hidden parts
+    #[arg(long)]
+    pub alternatives: bool,
+
     /// Compresses the numbers of meshes; includes --optimize
     #[arg(long, value_enum, value_name = "CODEC")]
     pub compress: Option<Compression>,

@@ -65,6 +65,7 @@ impl Settings {
             embed: args.embed,
             resolve: ResolveOptions {
                 chord: args.chord,
+                alternatives: args.choices.alternatives,
                 ..ResolveOptions::default()
             },
             system_fonts: args.system_fonts,

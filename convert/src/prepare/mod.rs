@@ -89,6 +89,7 @@ fn with_meshes(scene: &Scene, meshes: Vec<Mesh>) -> Scene {
         light_sets: scene.light_sets.clone(),
         environments: scene.environments.clone(),
         texts: scene.texts.clone(),
+        variants: scene.variants.clone(),
         files: scene.files.clone(),
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use iv_parser::SourcePos;
-use scenegraph::scene::{Environment, Node, NodeId, Placement, Scene};
+use scenegraph::scene::{Coarser, Environment, Node, NodeId, Placement, Scene, Shown};
 
 use crate::{Options, Up};
 
@@ -33,6 +33,9 @@ pub(crate) fn turn(scene: &mut Scene, options: &Options) {
     let root = Some(NodeId(0));
     for node in &mut scene.nodes {
         node.parent = node.parent.map_or(root, |parent| Some(behind(parent)));
+        if let Shown::Level(Coarser::Beyond(distance)) = &mut node.shown {
+            *distance *= options.metres_per_unit;
+        }
     }
     let group = Node {
         parent: None,
@@ -41,6 +44,7 @@ pub(crate) fn turn(scene: &mut Scene, options: &Options) {
         notes: Vec::new(),
         link: None,
         parent_from_local: world_from_model,
+        shown: Shown::Always,
         pos: SourcePos::default(),
     };
     scene.nodes.insert(0, group);

@@ -4,8 +4,11 @@
 //! The `gltf` crate holds numbers in f32. Frames and projections are read a second time, in f64:
 //! f32 has steps of 12 cm at national coordinates.
 
+use std::collections::BTreeMap;
+
 use gltf::json::Root;
 use serde::Deserialize;
+use serde_json::Value;
 
 use super::error::ReadError;
 
@@ -30,10 +33,12 @@ const SUPPORTED: &[&str] = &[
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
+    "KHR_node_visibility",
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "MSFT_lod",
 ];
 
 /// A parsed file.
@@ -50,6 +55,44 @@ pub(crate) struct Document<'b> {
 pub(crate) struct Exact {
     pub(crate) nodes: Vec<ExactNode>,
     pub(crate) cameras: Vec<ExactCamera>,
+    /// For their extensions.
+    pub(crate) meshes: Vec<MeshExtensions>,
+}
+
+/// What the `gltf` crate does not know of a mesh.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct MeshExtensions {
+    pub(crate) primitives: Vec<PrimitiveExtensions>,
+}
+
+/// What the `gltf` crate does not know of a primitive, whatever it holds.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct PrimitiveExtensions {
+    extensions: Option<Variants>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Variants {
+    #[serde(rename = "KHR_materials_variants")]
+    variants: Value,
+}
+
+impl PrimitiveExtensions {
+    /// The material of each variant that has one of its own, by its number.
+    pub(crate) fn material_by_variant(&self) -> BTreeMap<u64, usize> {
+        let extensions = self.extensions.as_ref();
+        let mappings = extensions.and_then(|e| e.variants["mappings"].as_array());
+        let pairs = mappings.into_iter().flatten().flat_map(|mapping| {
+            let material = mapping["material"].as_u64().and_then(|m| m.try_into().ok());
+            let variants = mapping["variants"].as_array().into_iter().flatten();
+            let numbers = variants.filter_map(Value::as_u64);
+            numbers.filter_map(move |variant| Some((variant, material?)))
+        });
+        pairs.collect()
+    }
 }
 
 /// A node's transform, as written.
@@ -60,6 +103,33 @@ pub(crate) struct ExactNode {
     pub(crate) translation: Option<[f64; 3]>,
     pub(crate) rotation: Option<[f64; 4]>,
     pub(crate) scale: Option<[f64; 3]>,
+    pub(crate) extensions: Option<NodeExtensions>,
+}
+
+/// Extensions of a node that the `gltf` crate does not know, whatever they hold.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct NodeExtensions {
+    #[serde(rename = "KHR_node_visibility")]
+    visibility: Value,
+    #[serde(rename = "MSFT_lod")]
+    lod: Value,
+}
+
+impl ExactNode {
+    pub(crate) fn is_hidden(&self) -> bool {
+        let extensions = self.extensions.as_ref();
+        extensions.is_some_and(|e| e.visibility["visible"] == false)
+    }
+
+    /// The nodes that take its place from afar, from fine to coarse. Those that are no numbers are
+    /// left out.
+    pub(crate) fn coarser_levels(&self) -> impl Iterator<Item = usize> {
+        let extensions = self.extensions.as_ref();
+        let ids = extensions.and_then(|e| e.lod["ids"].as_array());
+        let numbers = ids.into_iter().flatten().filter_map(Value::as_u64);
+        numbers.filter_map(|id| id.try_into().ok())
+    }
 }
 
 /// A camera's projection, as written.

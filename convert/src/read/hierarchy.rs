@@ -11,8 +11,8 @@ use gltf::json::Index;
 use gltf::json::Node as JsonNode;
 use iv_parser::SourcePos;
 use scenegraph::scene::{
-    Camera, Environment, EnvironmentId, Instance, Light, LightSetId, MaterialId, MeshId, Node,
-    NodeId, Placement, Text,
+    Camera, Coarser, Environment, EnvironmentId, Instance, Light, LightSetId, MaterialId, MeshId,
+    Node, NodeId, Placement, Shown, Text,
 };
 
 use super::budget::Budget;
@@ -51,6 +51,14 @@ pub(crate) struct Walk<'a> {
     pub(crate) cameras: Vec<(usize, Camera)>,
     classes: Vec<Arc<str>>,
     visited: Vec<bool>,
+    /// Nodes that are roots or children, or levels already.
+    in_hierarchy: Vec<bool>,
+    /// Whether hidden nodes and coarser levels are read too.
+    pub(crate) with_alternatives: bool,
+    /// How many parts were passed over, because they are hidden or coarser levels.
+    pub(crate) passed_over: usize,
+    /// How many lights were, because they are in such parts.
+    pub(crate) hidden_lights: usize,
 }
 
 /// A node still to be visited.
@@ -59,6 +67,10 @@ struct Open {
     parent: Option<NodeId>,
     world_from_parent: DAffine3,
     depth: usize,
+    /// It is a coarser level than what `parent` shows.
+    level: Option<Coarser>,
+    /// It is hidden or a coarser level, or below such a node.
+    not_shown: bool,
 }
 
 /// Something to be placed.
@@ -93,6 +105,10 @@ impl<'a> Walk<'a> {
             cameras: Vec::new(),
             classes: vec![GROUP_CLASS.into()],
             visited: vec![false; document.root.nodes.len()],
+            in_hierarchy: vec![false; document.root.nodes.len()],
+            with_alternatives: false,
+            passed_over: 0,
+            hidden_lights: 0,
         }
     }
 
@@ -105,15 +121,25 @@ impl<'a> Walk<'a> {
                 ..*open
             }));
         };
+        let children = self.document.root.nodes.iter();
+        let children = children.filter_map(|node| node.children.as_ref()).flatten();
+        for child in children.chain(roots) {
+            if let Some(slot) = self.in_hierarchy.get_mut(child.value()) {
+                *slot = true;
+            }
+        }
         let world = Open {
             node: 0,
             parent: None,
             world_from_parent: DAffine3::IDENTITY,
             depth: 1,
+            level: None,
+            not_shown: false,
         };
         push(&mut stack, roots, &world);
-        while let Some(open) = stack.pop() {
+        while let Some(mut open) = stack.pop() {
             self.budget.check_depth(open.depth)?;
+            self.open_levels(&mut open, &mut stack)?;
             if let Some(below) = self.visit(&open)? {
                 let children = self.document.root.nodes[open.node].children.as_deref();
                 push(&mut stack, children.unwrap_or_default(), &below);
@@ -145,14 +171,35 @@ impl<'a> Walk<'a> {
             return Err(broken("its transform is not finite"));
         }
         let iv = Iv::of(&source.extras).unwrap_or_default();
-        let (copies, items) = self.items(source)?;
+        let is_hidden = exact.is_hidden() && open.level.is_none();
+        let not_shown = open.not_shown || is_hidden;
+        if not_shown && !self.with_alternatives {
+            self.passed_over += 1;
+        }
+        let with_shapes = !not_shown || self.with_alternatives;
+        let (copies, mut items) = self.items(source, with_shapes)?;
+        if not_shown {
+            // Cameras are not hidden (KHR_node_visibility); of lights a scene has those that shine.
+            let before = items.len();
+            items.retain(|item| !matches!(item, Item::Light(..)));
+            self.hidden_lights += before - items.len();
+        }
+        let shown = match open.level {
+            _ if !self.with_alternatives => Shown::Always,
+            Some(coarser) => Shown::Level(coarser),
+            None if is_hidden => Shown::Hidden,
+            None => Shown::Always,
+        };
         let name: Option<Arc<str>> = source.name.as_deref().map(Into::into);
         let has_children = source.children.as_ref().is_some_and(|c| !c.is_empty());
         let notes: Vec<Arc<str>> = (iv.list("notes").iter())
             .filter_map(|note| Some(note.as_str()?.into()))
             .collect();
         let link = iv.link().map(Arc::new);
-        let says_more = !notes.is_empty() || link.is_some() || iv.word("type").is_some();
+        let says_more = !notes.is_empty()
+            || link.is_some()
+            || iv.word("type").is_some()
+            || shown != Shown::Always;
         // The words of a text belong to one shape; of several it is not known to which.
         if let ([Item::Shape(..)], [_]) = (&*items, &*copies) {
             self.text(&iv);
@@ -184,6 +231,7 @@ impl<'a> Walk<'a> {
             notes,
             link,
             parent_from_local,
+            shown,
             pos: SourcePos::default(),
         });
         placement.node = Some(group);
@@ -193,15 +241,75 @@ impl<'a> Walk<'a> {
             parent: Some(group),
             world_from_parent: world_from_local,
             depth: open.depth + 1,
+            level: None,
+            not_shown,
         }))
     }
 
+    /// Puts a group around a node that has coarser levels, and the levels beside it.
+    fn open_levels(&mut self, open: &mut Open, stack: &mut Vec<Open>) -> Result<(), ReadError> {
+        let document = self.document;
+        let Some(exact) = document.exact.nodes.get(open.node) else {
+            return Ok(());
+        };
+        // A node is the level of one part only, and has no other place.
+        let mut levels = Vec::new();
+        for (place, node) in exact.coarser_levels().enumerate() {
+            if let Some(slot @ false) = self.in_hierarchy.get_mut(node) {
+                *slot = true;
+                levels.push((place, node));
+            }
+        }
+        if levels.is_empty() {
+            return Ok(());
+        }
+        // Of a hidden part it cannot be said where its levels would be.
+        if !self.with_alternatives || exact.is_hidden() {
+            self.passed_over += 1;
+            return Ok(());
+        }
+        self.budget.take_items(levels.len() + 1)?;
+        let source = document.root.nodes.get(open.node);
+        let iv = source.and_then(|source| Iv::of(&source.extras));
+        let iv = iv.unwrap_or_default();
+        let class = self.class(Some("LOD"));
+        let limit = |index: usize| {
+            let number = |key: &str| iv.list(key).get(index)?.as_f64().filter(|v| *v >= 0.0);
+            let distance = number("range").map(Coarser::Beyond);
+            distance.or_else(|| number("screenArea").map(Coarser::Below))
+        };
+        let group = NodeId(self.nodes.len() as u32);
+        self.nodes.push(Node {
+            parent: open.parent,
+            name: None,
+            class,
+            notes: Vec::new(),
+            link: None,
+            parent_from_local: DAffine3::IDENTITY,
+            shown: open.level.take().map_or(Shown::Always, Shown::Level),
+            pos: SourcePos::default(),
+        });
+        open.parent = Some(group);
+        open.depth += 1;
+        stack.extend(levels.into_iter().rev().map(|(place, node)| Open {
+            node,
+            level: Some(limit(place).unwrap_or(Coarser::Never)),
+            not_shown: true,
+            ..*open
+        }));
+        Ok(())
+    }
+
     /// What a node holds, and the frames of the copies of its mesh.
-    fn items(&mut self, source: &JsonNode) -> Result<(Vec<DAffine3>, Vec<Item>), ReadError> {
+    fn items(
+        &mut self,
+        source: &JsonNode,
+        with_shapes: bool,
+    ) -> Result<(Vec<DAffine3>, Vec<Item>), ReadError> {
         let document = self.document;
         let mut items = Vec::new();
         let mut frames = vec![DAffine3::IDENTITY];
-        if let Some(index) = source.mesh {
+        if let Some(index) = source.mesh.filter(|_| with_shapes) {
             let missing = ReadError::broken("mesh", index.value(), "it does not exist");
             let mesh = document.root.get(index).ok_or(missing)?;
             frames = copies(source, document, self.buffers, &mut self.budget)?;

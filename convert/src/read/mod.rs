@@ -68,12 +68,37 @@ pub struct Model {
 /// # Errors
 ///
 /// Says what is wrong with the bytes, or what they need and is not to be had.
+///
+/// Nodes that are hidden (`KHR_node_visibility`) and coarser levels of detail (`MSFT_lod`) are passed
+/// over; of material variants the file's own materials are taken.
 pub fn read_gltf(
     bytes: &[u8],
     name: &str,
     beside: &Path,
     loader: &dyn Loader,
     limits: &ReadLimits,
+) -> Result<Model, ReadError> {
+    read(bytes, name, beside, loader, limits, false)
+}
+
+/// As [`read_gltf`], with hidden nodes and coarser levels, marked as such, for a writer.
+pub(crate) fn read_with_alternatives(
+    bytes: &[u8],
+    name: &str,
+    beside: &Path,
+    loader: &dyn Loader,
+    limits: &ReadLimits,
+) -> Result<Model, ReadError> {
+    read(bytes, name, beside, loader, limits, true)
+}
+
+fn read(
+    bytes: &[u8],
+    name: &str,
+    beside: &Path,
+    loader: &dyn Loader,
+    limits: &ReadLimits,
+    with_alternatives: bool,
 ) -> Result<Model, ReadError> {
     let document = Document::parse(bytes)?;
     let mut budget = Budget::new(*limits);
@@ -83,6 +108,7 @@ pub fn read_gltf(
     let textures = Textures::new(&document, beside);
     let materials = Materials::new(&document, made_by, textures);
     let mut walk = Walk::new(&document, &buffers, made_by, materials, budget);
+    walk.with_alternatives = with_alternatives;
 
     let shown = Shown::of(&document)?;
     walk.environments = shown
@@ -106,6 +132,12 @@ pub fn read_gltf(
         .collect();
     let light_sets = read_light_sets(light_sets, &numbers, &mut walk.budget)?;
     let mut warnings = left_out(&document);
+    if walk.hidden_lights > 0 {
+        warnings.push("lights of hidden nodes are left out".to_owned());
+    }
+    if walk.passed_over > 0 {
+        warnings.push("hidden nodes and coarser levels of detail are passed over".to_owned());
+    }
     warnings.append(&mut walk.materials.textures.warnings);
     let scene = Scene {
         nodes: walk.nodes,
@@ -118,6 +150,7 @@ pub fn read_gltf(
         light_sets,
         environments: walk.environments,
         texts: walk.texts,
+        variants: Vec::new(),
         files: vec![name.into()],
     };
     debug_assert_eq!(scene.check(), Vec::new());
@@ -214,6 +247,10 @@ fn left_out(document: &Document) -> Vec<String> {
         (
             "morph targets are not shown",
             root.meshes.iter().any(has_targets),
+        ),
+        (
+            "of material variants the one that the file shows is taken",
+            (root.extensions_used.iter()).any(|name| name == "KHR_materials_variants"),
         ),
     ];
     let present = rows.iter().filter(|(_, present)| *present);

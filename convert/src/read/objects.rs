@@ -1,6 +1,7 @@
 //! The objects of a glTF file one by one, with what glTF says of each and nothing of Inventor's
 //! extras: what an editor shows and changes.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -52,6 +53,7 @@ pub(crate) struct NodeObject {
     pub(crate) camera: Option<usize>,
     /// Frames of copies; just the identity as a rule.
     pub(crate) copies: Vec<DAffine3>,
+    pub(crate) is_hidden: bool,
 }
 
 /// A part of a mesh; without a mesh if it shows nothing.
@@ -59,6 +61,8 @@ pub(crate) struct NodeObject {
 pub(crate) struct PrimitiveObject {
     pub(crate) mesh: Option<Mesh>,
     pub(crate) material: Option<usize>,
+    /// In variants, by their numbers.
+    pub(crate) in_variants: BTreeMap<u64, usize>,
 }
 
 /// A material as Inventor's, and its image with how it is repeated.
@@ -138,14 +142,17 @@ impl Objects {
             images: images(&document, &buffers),
             ..Self::default()
         };
-        for mesh in &root.meshes {
+        for (number, mesh) in root.meshes.iter().enumerate() {
+            let extensions = document.exact.meshes.get(number);
             let mut primitives = Vec::new();
-            for primitive in &mesh.primitives {
+            for (part, primitive) in mesh.primitives.iter().enumerate() {
+                let extensions = extensions.and_then(|mesh| mesh.primitives.get(part));
                 let wants = materials.wants(primitive.material)?;
                 let made = meshes.primitive(primitive, &wants, &mut budget)?;
                 primitives.push(PrimitiveObject {
                     mesh: made.map(|id| meshes.meshes[id.index()].clone()),
                     material: primitive.material.map(|index| index.value()),
+                    in_variants: extensions.map_or_else(BTreeMap::new, |e| e.material_by_variant()),
                 });
             }
             objects.mesh_sums.push(sum_of(&primitives));
@@ -186,7 +193,11 @@ impl Objects {
             objects.nodes.push(NodeObject {
                 name: source.name.clone(),
                 parent_from_local: parent_from_local(exact),
-                children: children.map(|child| child.value()).collect(),
+                // Coarser levels are no children, but hang on the node all the same.
+                children: (children.map(|child| child.value()))
+                    .chain(exact.coarser_levels())
+                    .collect(),
+                is_hidden: exact.is_hidden(),
                 mesh: source.mesh.map(|mesh| mesh.value()),
                 light: light.map(|light| light.light.value()),
                 camera: source.camera.map(|camera| camera.value()),

@@ -130,6 +130,9 @@ impl<'o> Pairing<'o> {
         if !same_frame(&a.parent_from_local, &b.parent_from_local) {
             self.edits.frames.push((at, to));
         }
+        if a.is_hidden != b.is_hidden {
+            return Err("a part was hidden or shown".to_owned());
+        }
         let copies = a.copies.len() == b.copies.len()
             && a.copies
                 .iter()
@@ -180,6 +183,12 @@ impl<'o> Pairing<'o> {
                 (Some(a), Some(b)) => self.material(a, b)?,
                 (None, None) => {}
                 _ => return Err("a mesh has got or lost its material".to_owned()),
+            }
+            if !x.in_variants.keys().eq(y.in_variants.keys()) {
+                return Err("a mesh has other variants".to_owned());
+            }
+            for (&a, &b) in x.in_variants.values().zip(y.in_variants.values()) {
+                self.material(a, b)?;
             }
         }
         Ok(())

@@ -13,6 +13,9 @@ pub(crate) fn to_value(options: &Options, resolve: &ResolveOptions) -> Value {
     if let Some(chord) = resolve.chord {
         value["chord"] = chord.into();
     }
+    if resolve.alternatives {
+        value["alternatives"] = true.into();
+    }
     let usual = Options::default();
     for (key, word, usual) in [
         ("up", up_word(options.up), up_word(usual.up)),
@@ -113,6 +116,7 @@ pub(crate) fn from_value(value: &Value) -> (Options, ResolveOptions) {
     };
     let resolve = ResolveOptions {
         chord: number(&value["chord"]),
+        alternatives: is("alternatives", false),
         ..ResolveOptions::default()
     };
     (options, resolve)
@@ -137,12 +141,14 @@ mod tests {
         unusual.0.compress = true;
         unusual.0.quantize = Some(Quantize::within(1e-3));
         unusual.1.chord = Some(0.1);
+        unusual.1.alternatives = true;
         for (options, resolve) in [usual, unusual] {
             let text = to_value(&options, &resolve).to_string();
             let value: Value = serde_json::from_str(&text).unwrap();
             let (options_back, resolve_back) = from_value(&value);
             assert_eq!(options_back, options);
             assert_eq!(resolve_back.chord, resolve.chord);
+            assert_eq!(resolve_back.alternatives, resolve.alternatives);
         }
     }
 }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use scenegraph::{Loader, SceneText, write_scene};
 
-use crate::read::{Model, ReadError, ReadLimits, read_gltf};
+use crate::read::{Model, ReadError, ReadLimits, read_with_alternatives};
 use crate::round_trip::{self, Back};
 use images::Images;
 
@@ -92,7 +92,7 @@ pub struct InventorCounts {
 ///
 /// # Errors
 ///
-/// As [`read_gltf`].
+/// As [`read_gltf`](crate::read_gltf).
 pub fn gltf_to_inventor(
     bytes: &[u8],
     name: &str,
@@ -140,7 +140,7 @@ fn anew(input: &Input<'_>) -> Result<InventorFiles, ReadError> {
     } = input;
     let Model {
         scene, warnings, ..
-    } = read_gltf(bytes, name, beside, loader, &options.limits)?;
+    } = read_with_alternatives(bytes, name, beside, loader, &options.limits)?;
     let mut images = Images::new(loader, existing, options.embed_images);
     let forms: Vec<_> = scene.textures.iter().map(|t| images.form(t)).collect();
     let SceneText {

@@ -102,6 +102,28 @@ fn formats() {
     assert!(bytes("again.glb") == bytes("a.glb"));
 }
 
+/// Hidden parts are written when they are asked for, come back as Switches, and with the source as
+/// the text they were in.
+#[test]
+fn alternatives_are_kept_on_demand() {
+    let place = Place::new().model("a.iv", "Cube { } Switch { DEF Part Sphere { } }");
+    let has = |name: &str, word: &str| {
+        let bytes = fs::read(place.path(name)).unwrap();
+        bytes.windows(word.len()).any(|w| w == word.as_bytes())
+    };
+    let plain = place.run("a.iv -o plain.glb");
+    assert!(plain.err.contains("note[hidden]") && !has("plain.glb", "Part"));
+    let kept = place.run("a.iv -o kept.glb --alternatives --round-trip");
+    assert!(kept.err.contains("note[kept]"), "{}", kept.err);
+    assert!(has("kept.glb", "KHR_node_visibility") && has("kept.glb", "Part"));
+    assert_eq!(place.run("kept.glb -o back.iv").code, 0);
+    assert!(fs::read(place.path("back.iv")).unwrap() == fs::read(place.path("a.iv")).unwrap());
+    assert_eq!(place.run("a.iv -o anew.glb --alternatives").code, 0);
+    assert_eq!(place.run("anew.glb -o anew.iv").code, 0);
+    assert!(has("anew.iv", "Switch {") && has("anew.iv", "DEF Part"));
+    assert_eq!(place.run("a.iv -o b.iv --alternatives").code, 2);
+}
+
 /// Nobody can make files in `/proc`.
 #[cfg(target_os = "linux")]
 #[test]

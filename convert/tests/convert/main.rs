@@ -5,6 +5,7 @@
 // Helpers of tests stop a test as an assertion does.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod alternatives;
 mod choices;
 mod containers;
 mod decode;

@@ -151,6 +151,7 @@ impl Build {
             notes: Vec::new(),
             link: None,
             parent_from_local: local,
+            shown: scenegraph::scene::Shown::Always,
             pos: at_line(2),
         });
         self.scene.nodes.len() as u32 - 1

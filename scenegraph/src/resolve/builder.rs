@@ -102,6 +102,12 @@ impl Builder {
         self.scene.instances.push(instance);
     }
 
+    /// The number of the instance that was added last, and its material.
+    pub fn last_instance(&self) -> Option<(u32, MaterialId)> {
+        let last = self.scene.instances.last()?;
+        Some((self.scene.instances.len() as u32 - 1, last.material))
+    }
+
     /// Says what the last instance spells.
     pub fn text(&mut self, strings: Vec<Arc<str>>, faces_viewer: bool) {
         let instance = self.scene.instances.len().saturating_sub(1) as u32;

@@ -9,7 +9,7 @@
 use geometry::bounds::Aabb;
 use glam::{DAffine3, DQuat, DVec3};
 
-use crate::scene::{Projection, Scene};
+use crate::scene::{Projection, Scene, is_below};
 use crate::shape::Measure;
 
 /// Height of the window that the text is seen in.
@@ -130,9 +130,14 @@ fn bounds(scene: &Scene, measures: &[Measure], labels: &[u32]) -> Aabb {
     let mut boxes: Vec<Option<Aabb>> = vec![None; scene.meshes.len().max(measures.len())];
     let mut bounds = Aabb::EMPTY;
     let mut labels = labels.iter().peekable();
+    let not_shown = scene.nodes_not_shown();
     for (i, instance) in scene.instances.iter().enumerate() {
+        let is_label = labels.next_if_eq(&&(i as u32)).is_some();
+        if is_below(instance.placement.node, &not_shown) {
+            continue;
+        }
         let world = &instance.placement.world_from_local;
-        if labels.next_if_eq(&&(i as u32)).is_some() {
+        if is_label {
             bounds.include(world.translation);
             continue;
         }

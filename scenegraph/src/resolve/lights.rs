@@ -35,7 +35,7 @@ impl Walk<'_> {
         if !node.flag("on") {
             return true;
         }
-        if !self.can_place(node) {
+        if self.drops_views(node) || !self.can_place(node) {
             return true;
         }
         let placement = self.place(id);
@@ -73,7 +73,7 @@ impl Walk<'_> {
             Class::FrustumCamera => frustum(node),
             _ => return false,
         };
-        if !self.can_place(node) {
+        if self.drops_views(node) || !self.can_place(node) {
             return true;
         }
         let placement = self.place(id);

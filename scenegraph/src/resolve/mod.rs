@@ -4,6 +4,7 @@
 //! that leak restore nothing, `TransformSeparator` the matrix only. Shapes are handed to `shape`,
 //! results to the builder, which shares what is equal.
 
+mod alternatives;
 mod builder;
 mod for_all;
 mod hints;
@@ -14,6 +15,7 @@ mod properties;
 mod shapes;
 mod state;
 mod transforms;
+mod variants;
 mod vrml;
 mod walk;
 
@@ -74,6 +76,11 @@ pub struct ResolveOptions {
     /// NURBS curve or surface they stand for, wherever it is placed. Without it each shape's own
     /// size and its `Complexity` decide.
     pub chord: Option<f64>,
+    /// Keep what the model has besides what it shows: children that a Switch hides, coarser levels
+    /// of detail, looks that a Switch sets. They are marked in the scene ([`crate::scene::Shown`],
+    /// [`crate::scene::Variant`]), which is for writers that know these marks; what is shown is the
+    /// same as without.
+    pub alternatives: bool,
     /// Limits.
     pub limits: ResolveLimits,
 }
@@ -84,6 +91,7 @@ impl Default for ResolveOptions {
             geometry: Geometry::Build,
             like_coin: false,
             chord: None,
+            alternatives: false,
             limits: ResolveLimits::default(),
         }
     }

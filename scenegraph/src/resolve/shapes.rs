@@ -118,6 +118,7 @@ impl Walk<'_> {
                 let strings = graph.node(id).value("string").texts().to_vec();
                 self.builder.text(strings, is_screen_text(class));
             }
+            self.shape_in_variants(&job, &made);
         }
     }
 
@@ -147,7 +148,7 @@ impl Walk<'_> {
         Some(f64::from_bits(local.to_bits() & kept_bits))
     }
 
-    fn material(
+    pub(super) fn material(
         &mut self,
         job: &Job<'_>,
         attributes: &Attributes<'_>,

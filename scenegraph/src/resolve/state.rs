@@ -9,6 +9,8 @@ use iv_parser::SourcePos;
 use crate::graph::NodeId;
 use crate::scene::{Environment, EnvironmentId, LightModel};
 
+use super::variants::Forks;
+
 /// How values attach to geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Binding {
@@ -170,6 +172,8 @@ pub struct State {
     pub lights: LightList,
     pub environment: Environment,
     pub environment_id: EnvironmentId,
+    /// Looks in other variants.
+    pub forks: Forks,
 }
 
 impl State {
@@ -220,6 +224,7 @@ impl State {
             lights: LightList::default(),
             environment: Environment::default(),
             environment_id: EnvironmentId(0),
+            forks: None,
         }
     }
 

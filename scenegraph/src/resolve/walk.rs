@@ -1,5 +1,6 @@
 //! The traversal itself: which nodes are visited, in which order, with which state.
 
+use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -10,16 +11,18 @@ use rustc_hash::FxHashMap;
 use crate::graph::{FieldValue, Graph, Kind, Node, NodeId};
 use crate::registry::{Class, Family, Support};
 use crate::remarks::Remarks;
-use crate::scene::{self, Placement, Scene};
+use crate::scene::{self, Placement, Scene, Shown};
 use crate::shape::{MadeFaces, Measure, ShapeMaker};
 
+use super::alternatives::{Choice, Others};
 use super::builder::Builder;
 use super::profiles::Profiles;
 use super::state::State;
+use super::variants::Variants;
 use super::{ResolveOptions, not_supported, transforms};
 
 /// What a group restores when it ends.
-enum Keep {
+pub(super) enum Keep {
     /// The whole state.
     All(Box<State>),
     /// The matrix.
@@ -32,9 +35,34 @@ enum Keep {
     Nothing,
 }
 
+/// A group to be traversed.
+pub(super) struct Opening {
+    pub node: NodeId,
+    pub children: Range<usize>,
+    pub keep: Keep,
+    pub copies: Option<Copies>,
+    /// When all that is in it is shown.
+    pub shown: Shown,
+    /// Which children are shown, if not all are.
+    pub choice: Option<(Range<usize>, Choice)>,
+}
+
+impl Opening {
+    pub fn new(node: NodeId, children: Range<usize>, keep: Keep) -> Self {
+        Self {
+            node,
+            children,
+            keep,
+            copies: None,
+            shown: Shown::Always,
+            choice: None,
+        }
+    }
+}
+
 /// A group being traversed.
-struct Open {
-    node: NodeId,
+pub(super) struct Open {
+    pub node: NodeId,
     /// Children still to visit: positions in the node's list.
     next: usize,
     end: usize,
@@ -42,10 +70,12 @@ struct Open {
     copies: Option<Copies>,
     /// Whether what is in it can come again.
     shared: bool,
+    /// The children that are not shown, if they are visited too.
+    pub others: Option<Box<Others>>,
 }
 
 /// The copies of an `Array` or `MultipleCopy` still to come.
-struct Copies {
+pub(super) struct Copies {
     next: u64,
     total: u64,
 }
@@ -62,6 +92,7 @@ pub(super) struct Frame {
     /// Made when something in it is placed.
     scene_node: Option<scene::NodeId>,
     notes: Vec<Arc<str>>,
+    shown: Shown,
 }
 
 pub(super) struct Walk<'g> {
@@ -72,15 +103,18 @@ pub(super) struct Walk<'g> {
     pub remarks: Remarks,
     pub shapes: ShapeMaker,
     pub profiles: Profiles,
+    pub variants: Variants,
     /// What shared nodes of VRML 2 give by rule.
     pub made: FxHashMap<NodeId, Option<Rc<MadeFaces>>>,
     /// Whether groups have to look for lights of VRML 2.
     pub has_vrml_lights: bool,
     /// For each node whether it is the child of several.
     several_parents: Vec<bool>,
-    stack: Vec<Open>,
+    pub stack: Vec<Open>,
     frames: Vec<Frame>,
-    steps: usize,
+    pub steps: usize,
+    /// How many open groups are not shown.
+    pub not_shown: usize,
     /// The text of the Info that was visited last, and how deep it stood.
     hint: Option<(usize, Arc<str>)>,
 }
@@ -104,6 +138,7 @@ impl<'g> Walk<'g> {
             remarks: Remarks::default(),
             shapes: ShapeMaker::default(),
             profiles: Profiles::default(),
+            variants: Variants::default(),
             made: FxHashMap::default(),
             has_vrml_lights: graph
                 .nodes()
@@ -113,6 +148,7 @@ impl<'g> Walk<'g> {
             stack: Vec::new(),
             frames: Vec::new(),
             steps: 0,
+            not_shown: 0,
             hint: None,
         }
     }
@@ -121,9 +157,15 @@ impl<'g> Walk<'g> {
         self.visit(self.graph.root);
         while let Some(open) = self.stack.last_mut() {
             if open.next < open.end {
-                let child = self.graph.node(open.node).children[open.next];
+                let index = open.next;
                 open.next += 1;
-                self.visit(child);
+                match &open.others {
+                    Some(others) if !others.shown.contains(&index) => self.visit_other(index),
+                    _ => {
+                        let child = self.graph.node(open.node).children[index];
+                        self.visit(child);
+                    }
+                }
             } else if open.copies.as_ref().is_some_and(|c| c.next < c.total) {
                 self.next_copy();
             } else if let Some(open) = self.stack.pop() {
@@ -133,7 +175,8 @@ impl<'g> Walk<'g> {
     }
 
     pub fn finish(mut self) -> (Scene, Vec<Measure>, Remarks) {
-        let (scene, measures) = self.builder.finish(&mut self.remarks);
+        let (mut scene, measures) = self.builder.finish(&mut self.remarks);
+        scene.variants = self.variants.finish(&mut self.remarks);
         (scene, measures, self.remarks)
     }
 
@@ -175,7 +218,10 @@ impl<'g> Walk<'g> {
         let class = class.acts_as();
         let done = match class.spec().family {
             Family::Transform => transforms::apply(class, node, &mut self.state, &mut self.remarks),
-            Family::Appearance | Family::Property => self.property(class, id),
+            Family::Appearance | Family::Property => {
+                self.property_of_forks(class, id);
+                self.property(class, id)
+            }
             Family::Shape => self.shape(class, id),
             Family::Group => {
                 self.group(class, id, node);
@@ -233,24 +279,26 @@ impl<'g> Walk<'g> {
             Class::TransformSeparator => self.open_transform(id, count),
             Class::Switch | Class::Blinker => {
                 let (first, end) = self.chosen(class, node);
-                if end - first < count {
-                    let text = "a Switch hides some of its children, which are left out";
-                    self.left_out(text, node);
+                if class == Class::Blinker {
+                    if end - first < count {
+                        let text = "a Switch hides some of its children, which are left out";
+                        self.left_out(text, node);
+                    }
+                    return self.open(id, first, end, false);
                 }
-                self.open(id, first, end, false);
+                self.open_choice(id, first..end, Choice::Switch, false);
             }
             // Children of a level-of-detail group go from fine to coarse.
             Class::LOD | Class::LevelOfDetail => {
-                if count > 1 {
-                    let text = "of levels of detail only the finest is used";
-                    self.left_out(text, node);
-                }
-                self.open(id, 0, count.min(1), false);
+                self.open_choice(id, 0..count.min(1), Choice::Levels, false);
             }
             Class::Array | Class::MultipleCopy => {
                 let total = if count == 0 { 0 } else { copies(class, node) };
                 let keep = Keep::All(Box::new(self.state.clone()));
-                self.push(id, count, count, keep, Some(Copies { next: 0, total }));
+                self.push(Opening {
+                    copies: Some(Copies { next: 0, total }),
+                    ..Opening::new(id, count..count, keep)
+                });
             }
             Class::PathSwitch => not_supported(&mut self.remarks, class.name(), node.pos),
             _ => self.open(id, 0, count, false),
@@ -282,7 +330,7 @@ impl<'g> Walk<'g> {
             relative,
             units_m,
         };
-        self.push(id, 0, count, keep, None);
+        self.push(Opening::new(id, 0..count, keep));
     }
 
     /// Says that something the source hides, or changes over time, is not in the scene.
@@ -320,8 +368,10 @@ impl<'g> Walk<'g> {
     /// Opens all of a group's children; behind them the state is `before`, which may be another
     /// one than the current.
     pub(super) fn open_before(&mut self, id: NodeId, count: usize, before: State) {
-        if count == 0 || !self.push(id, 0, count, Keep::All(Box::new(before.clone())), None) {
+        if count == 0 {
             self.state = before;
+        } else {
+            self.push(Opening::new(id, 0..count, Keep::All(Box::new(before))));
         }
     }
 
@@ -334,18 +384,19 @@ impl<'g> Walk<'g> {
         } else {
             Keep::Nothing
         };
-        self.push(id, first, end, keep, None);
+        self.push(Opening::new(id, first..end, keep));
     }
 
-    /// Opens a group; false if it is nested too deeply.
-    fn push(
-        &mut self,
-        node: NodeId,
-        next: usize,
-        end: usize,
-        keep: Keep,
-        copies: Option<Copies>,
-    ) -> bool {
+    /// Opens a group; false if it is nested too deeply, and then nothing of it is left.
+    pub(super) fn push(&mut self, opening: Opening) -> bool {
+        let Opening {
+            node,
+            children,
+            keep,
+            copies,
+            shown,
+            choice,
+        } = opening;
         if self.stack.len() >= self.options.limits.depth {
             let pos = self.graph.node(node).pos;
             self.remarks.add(
@@ -355,6 +406,9 @@ impl<'g> Walk<'g> {
                 "the contents of the innermost were left out",
                 pos,
             );
+            if let Keep::All(state) = keep {
+                self.state = *state;
+            }
             return false;
         }
         self.frames.push(Frame {
@@ -364,19 +418,27 @@ impl<'g> Walk<'g> {
             world_from_local: self.world(),
             scene_node: None,
             notes: Vec::new(),
+            shown,
         });
         self.state.base = self.frames.len();
         self.state.relative = DAffine3::IDENTITY;
         let shared = copies.is_some() || self.is_shared(node);
+        let lit = choice
+            .as_ref()
+            .map_or(&children, |(shown, _)| shown)
+            .clone();
+        let others =
+            choice.map(|(shown, choice)| Box::new(Others::new(shown, choice, self.state.clone())));
         self.stack.push(Open {
             node,
-            next,
-            end,
+            next: children.start,
+            end: children.end,
             keep,
             copies,
             shared,
+            others,
         });
-        self.lights_of_group(node, next, end);
+        self.lights_of_group(node, lit);
         true
     }
 
@@ -406,12 +468,17 @@ impl<'g> Walk<'g> {
 
     fn leave(&mut self, open: Open) {
         let depth = self.frames.len();
+        self.keep_empty_level();
         let Some(frame) = self.frames.pop() else {
             return;
         };
+        if frame.shown != Shown::Always {
+            self.leave_other(open.node, frame.shown, frame.scene_node.is_some());
+        }
         if let Some(node) = frame.scene_node {
             self.builder.set_notes(node, frame.notes);
         }
+        let leaks = matches!(open.keep, Keep::Nothing);
         match open.keep {
             Keep::All(state) => self.state = *state,
             Keep::Matrix {
@@ -429,6 +496,9 @@ impl<'g> Walk<'g> {
                 self.state.relative = frame.parent_from_local * self.state.relative;
             }
             Keep::Nothing => {}
+        }
+        if let Some(others) = open.others.filter(|_| leaks) {
+            self.leave_choice(*others);
         }
     }
 
@@ -513,6 +583,20 @@ impl<'g> Walk<'g> {
         }
     }
 
+    /// A level that shows nothing says that nothing is shown from there on, so it has a node too.
+    fn keep_empty_level(&mut self) {
+        let Some(frame) = self.frames.last() else {
+            return;
+        };
+        let around = frame.parent_base.checked_sub(1).map(|i| &self.frames[i]);
+        if matches!(frame.shown, Shown::Level(_))
+            && around.is_some_and(|around| around.scene_node.is_some())
+            && self.builder.items() < self.options.limits.items
+        {
+            self.scene_node(self.frames.len());
+        }
+    }
+
     /// The scene's node for the frame number `base`, made with all those around it if need be.
     fn scene_node(&mut self, base: usize) -> Option<scene::NodeId> {
         let mut missing = Vec::new();
@@ -525,14 +609,18 @@ impl<'g> Walk<'g> {
         for i in missing.into_iter().rev() {
             let frame = &mut self.frames[i];
             let node = self.graph.node(frame.node);
-            let class = self.builder.class_name(node.class_name());
+            // The group of a child that is not shown has no node of its own in the source.
+            let is_own = frame.shown == Shown::Always;
+            let class = if is_own { node.class_name() } else { "Group" };
+            let class = self.builder.class_name(class);
             let made = self.builder.node(scene::Node {
                 parent,
-                name: node.name.clone(),
+                name: node.name.clone().filter(|_| is_own),
                 class,
                 notes: Vec::new(),
                 link: link_of(node).map(Arc::new),
                 parent_from_local: frame.parent_from_local,
+                shown: frame.shown,
                 pos: node.pos,
             });
             frame.scene_node = Some(made);

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, Vec3};
 
-use super::{Placement, Scene, Topology};
+use super::{Coarser, MaterialId, Placement, Scene, Topology, is_below};
 
 /// A guarantee that does not hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,6 +23,26 @@ impl Scene {
             });
             fault(node.parent_from_local.is_finite(), &|| {
                 format!("node {i}: its transform is not finite")
+            });
+        }
+        for (i, node) in self.nodes.iter().enumerate() {
+            let limit_holds = match node.level() {
+                Some(Coarser::Beyond(limit) | Coarser::Below(limit)) => {
+                    limit.is_finite() && limit >= 0.0
+                }
+                Some(Coarser::Never) | None => true,
+            };
+            fault(limit_holds, &|| {
+                format!("node {i}: the limit of its level is no size")
+            });
+            fault(node.level().is_none() || node.parent.is_some(), &|| {
+                format!("node {i}: a level without a parent")
+            });
+        }
+        let not_shown = self.nodes_not_shown();
+        for (i, light) in self.lights.iter().enumerate() {
+            fault(!is_below(light.placement.node, &not_shown), &|| {
+                format!("light {i} is in a part that is not shown")
             });
         }
         let texts_in_order = self.texts.is_sorted_by(|a, b| a.instance < b.instance);
@@ -49,6 +69,23 @@ impl Scene {
             fault(self.placement_adds_up(&instance.placement), &|| {
                 format!("instance {i}: world_from_local is not the product of its path")
             });
+        }
+        for (i, variant) in self.variants.iter().enumerate() {
+            let ascends = variant.materials.is_sorted_by(|a, b| a.0 < b.0);
+            let in_range = |&(instance, material): &(u32, MaterialId)| {
+                (instance as usize) < self.instances.len()
+                    && material.index() < self.materials.len()
+            };
+            fault(ascends && variant.materials.iter().all(in_range), &|| {
+                format!("variant {i}: its instances or materials are out of order or range")
+            });
+            for (_, material) in &variant.materials {
+                if let Some(used) = material_used.get_mut(material.index()) {
+                    *used = true;
+                }
+            }
+            let known = self.variants[..i].iter().any(|v| v.name == variant.name);
+            fault(!known, &|| format!("variant {i}: its name is taken"));
         }
         for (i, material) in self.materials.iter().enumerate() {
             if let Some(texture) = material.texture {

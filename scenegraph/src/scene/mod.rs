@@ -10,13 +10,18 @@
 //! - front faces are counter-clockwise, whatever order the source has;
 //! - meshes, materials and textures are shared by index, and none is unused;
 //! - texts belong to instances in ascending order;
-//! - lights that are off and shapes that are not drawn are not in it.
+//! - lights that are off and shapes that are not drawn are not in it;
+//! - only where [`ResolveOptions::alternatives`](crate::ResolveOptions::alternatives) asked for them
+//!   are there nodes that are not always [`Shown`] and [`Variant`]s; no light hangs below such a
+//!   node, a level has a parent, limits of levels are finite and not negative, and variants name
+//!   instances in ascending order, none without a material of its own.
 
 mod check;
 mod light;
 mod link;
 mod material;
 mod mesh;
+mod shown;
 mod subset;
 mod text;
 
@@ -29,6 +34,7 @@ pub use material::{
     Faces, Image, LightModel, Material, Texture, TextureModel, TextureSource, Wrap,
 };
 pub use mesh::{Mesh, Topology};
+pub use shown::{Coarser, Shown, Variant, is_below};
 pub use text::Text;
 
 use std::sync::Arc;
@@ -91,6 +97,8 @@ pub struct Scene {
     pub environments: Vec<Environment>,
     /// What instances spell, in their order.
     pub texts: Vec<Text>,
+    /// Other looks: instances that a variant does not name keep their own material in it.
+    pub variants: Vec<Variant>,
     /// The files read, by [`SourcePos::file`].
     pub files: Vec<Arc<str>>,
 }
@@ -110,6 +118,8 @@ pub struct Node {
     pub link: Option<Arc<Link>>,
     /// Its frame in that of `parent` (the world for a root).
     pub parent_from_local: DAffine3,
+    /// When it is shown.
+    pub shown: Shown,
     /// Where it stands in the source.
     pub pos: SourcePos,
 }

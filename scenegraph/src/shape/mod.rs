@@ -141,6 +141,28 @@ impl ShapeMaker {
         }
     }
 
+    /// Whether a shape has the same mesh under another look, which `other` is its job with. Where
+    /// `job` is lit or textured and `other` is not, the mesh does for both.
+    pub fn same_mesh(
+        job: &Job<'_>,
+        attributes: &Attributes<'_>,
+        other: &Job<'_>,
+        other_attributes: &Attributes<'_>,
+    ) -> bool {
+        let (key, mut others) = (
+            Self::key(job, attributes),
+            Self::key(other, other_attributes),
+        );
+        if !other.lit {
+            others.lit = key.lit;
+        }
+        if other.state.texture.is_none() {
+            others.texcoords = key.texcoords;
+            others.texture_transform = key.texture_transform;
+        }
+        key == others
+    }
+
     /// The mesh of a shape, made by `keep` when it is new; `None` if it draws nothing.
     pub fn mesh(
         &mut self,

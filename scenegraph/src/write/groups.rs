@@ -4,8 +4,8 @@ use glam::{DAffine3, DMat3};
 use rustc_hash::FxHashMap;
 
 use crate::scene::{
-    Camera, Environment, EnvironmentId, LightId, Link, MaterialId, MeshId, NodeId, Placement,
-    Scene, TextureId,
+    Camera, Coarser, Environment, EnvironmentId, LightId, Link, MaterialId, MeshId, NodeId,
+    Placement, Scene, Shown, TextureId,
 };
 
 use super::lights::{Lights, Part};
@@ -13,7 +13,7 @@ use super::look::{self, Look};
 use super::names::{Shared, legal};
 use super::shape::{self, Palette};
 use super::text::Text;
-use super::{ImageForm, SceneText, cameras};
+use super::{ImageForm, SceneText, cameras, levels};
 
 /// What a group holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,9 +23,15 @@ pub(super) enum Member {
 }
 
 /// What is left to write, last first.
-enum Step {
+pub(super) enum Step {
     Part(Part),
+    /// Opens a group of levels with these limits.
+    Levels(Vec<Coarser>),
+    /// Opens a Separator without a name.
+    Separator,
     Close,
+    /// Closes a group that is no Separator.
+    CloseChoice,
 }
 
 /// How often something is used, and what it is called once it is written.
@@ -97,28 +103,37 @@ impl<'s> Writer<'s> {
         let link = root.and_then(|root| self.scene.nodes[root.index()].link.as_deref());
         self.open(name, link);
         self.views();
-        let mut parts = self.lights.order(None, &world);
+        let parts = self.lights.order(None, &world);
+        let mut parts: Vec<Step> = parts.into_iter().map(Step::Part).collect();
         if let Some(root) = root
             && let Some(at) = parts
                 .iter()
-                .position(|part| matches!(part, Part::Member(_)))
+                .position(|step| matches!(step, Step::Part(Part::Member(_))))
         {
             // What lights all stands in the root's frame, which is the world's.
             parts.splice(at..=at, self.body(root));
         }
         let mut steps = vec![Step::Close];
-        steps.extend(parts.into_iter().rev().map(Step::Part));
+        steps.extend(parts.into_iter().rev());
         while let Some(step) = steps.pop() {
             match step {
                 Step::Close => self.close(),
+                Step::CloseChoice => self.text.close(),
+                Step::Separator => self.open(None, None),
+                Step::Levels(limits) => levels::open(&mut self.text, &limits),
                 Step::Part(Part::Light(light)) => self.light(light),
                 Step::Part(Part::Member(Member::Item(i))) => self.item(i),
                 Step::Part(Part::Member(Member::Group(node))) => {
-                    let group = &self.scene.nodes[node.index()];
-                    self.open(group.name.as_deref(), group.link.as_deref());
+                    let source = &self.scene.nodes[node.index()];
+                    if source.shown == Shown::Hidden {
+                        // A Switch shows nothing by default.
+                        self.text.open(None, "Switch");
+                        steps.push(Step::CloseChoice);
+                    }
+                    self.open(source.name.as_deref(), source.link.as_deref());
                     let parts = self.body(node);
                     steps.push(Step::Close);
-                    steps.extend(parts.into_iter().rev().map(Step::Part));
+                    steps.extend(parts.into_iter().rev());
                 }
             }
         }
@@ -132,7 +147,11 @@ impl<'s> Writer<'s> {
     /// Whether a group can be the root of the text: nothing else is in the world, or its frame is
     /// the world's.
     fn root_frame_is_free(&self, root: NodeId) -> bool {
-        let frame = self.scene.nodes[root.index()].parent_from_local;
+        let root = &self.scene.nodes[root.index()];
+        let frame = root.parent_from_local;
+        if root.shown != Shown::Always {
+            return false;
+        }
         let alone = self.scene.cameras.is_empty() && self.scene.lights.is_empty();
         frame == DAffine3::IDENTITY || alone
     }
@@ -175,7 +194,7 @@ impl<'s> Writer<'s> {
     }
 
     /// The notes and the frame of a group that was opened; gives what it holds.
-    fn body(&mut self, node: NodeId) -> Vec<Part> {
+    fn body(&mut self, node: NodeId) -> Vec<Step> {
         let source = &self.scene.nodes[node.index()];
         for note in &source.notes {
             self.text.open(None, "Info");
@@ -184,7 +203,10 @@ impl<'s> Writer<'s> {
         }
         self.frame(&source.parent_from_local);
         let members = std::mem::take(&mut self.members[node.index()]);
-        self.lights.order(Some(node), &members)
+        let parts = self.lights.order(Some(node), &members);
+        let (steps, lit_by_more) = levels::steps(self.scene, parts);
+        self.lights.lit_by_more += lit_by_more;
+        steps
     }
 
     fn frame(&mut self, frame: &DAffine3) {

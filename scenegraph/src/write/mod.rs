@@ -6,11 +6,14 @@
 //! that Inventor cannot write are changed, and kept in a `Label`. Lights stand ahead of the shapes
 //! they reach, cameras at the top; both are written in the frame they then stand in.
 //!
-//! Not kept: the classes of groups other than Separator, and which places of a file a scene came
+//! Hidden groups stand in a Switch that shows nothing, coarser levels in an LOD.
+//!
+//! Not kept: the classes of groups other than Separator, variants, and which places of a file a scene came
 //! from. Files of images are the caller's business: it says what each texture is called.
 
 mod cameras;
 mod groups;
+mod levels;
 mod lights;
 mod look;
 mod names;

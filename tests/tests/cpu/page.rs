@@ -13,13 +13,15 @@ const SIZE: (u32, u32) = (400, 300);
 /// Names that the browser has on different systems.
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// A column with +Z upwards, in a different colour at each end, colours without light.
+/// A column with +Z upwards, in a different colour at each end, colours without light; and around it
+/// a box that a Switch hides.
 const COLUMN: &str = "#Inventor V2.1 ascii
 Separator {
   LightModel { model BASE_COLOR }
   Separator { Translation { translation 2600000 1200000 0 } Material { diffuseColor 1 0 0 } Cube { width 2 height 2 depth 2 } }
   Separator { Translation { translation 2600000 1200000 2 } Material { diffuseColor 0 0 1 } Cube { width 2 height 2 depth 2 } }
   Separator { Translation { translation 2600000 1200000 -2 } Material { diffuseColor 0 1 0 } Cube { width 2 height 2 depth 2 } }
+  Switch { Separator { Translation { translation 2600000 1200000 0 } Material { diffuseColor 1 1 0 } Cube { width 20 height 20 depth 20 } } }
 }";
 
 fn screenshot(page: &Path, folder: &Path) -> image::RgbImage {
@@ -76,7 +78,11 @@ fn the_page_shows_the_model_upright_in_its_colours() {
         folder.path(),
         &FileLoader::new([folder.path()]),
     );
-    let scene = resolve(&graph, &ResolveOptions::default()).scene;
+    let keeps = ResolveOptions {
+        alternatives: true,
+        ..ResolveOptions::default()
+    };
+    let scene = resolve(&graph, &keeps).scene;
     let plain = Options {
         container: Container::Html,
         up: Up::Z,

@@ -39,6 +39,7 @@ impl Walk<'_> {
             hints: fresh.hints,
             texture: None,
             texture_transform: fresh.texture_transform,
+            forks: None,
             ..self.state.clone()
         };
         // Without a material a shape is white and not lit.

@@ -14,7 +14,7 @@ impl Walk<'_> {
     /// `ADJUST_CAMERA` makes of a height angle at an aspect ratio of 1.
     pub(super) fn viewpoint(&mut self, id: NodeId) {
         let node = self.graph.node(id);
-        if !self.can_place(node) {
+        if self.drops_views(node) || !self.can_place(node) {
             return;
         }
         let mut placement = self.place(id);
@@ -39,6 +39,9 @@ impl Walk<'_> {
 
     /// The first fog that hides anything is that of the whole scene.
     pub(super) fn vrml_fog(&mut self, node: &Node) {
+        if self.drops_views(node) {
+            return;
+        }
         let scale = self.largest_scale();
         let visibility = node.number("visibilityRange") * scale;
         if visibility <= 0.0 || !visibility.is_finite() {

@@ -1,6 +1,8 @@
 //! Lights. A `DirectionalLight` lights its group, what stands before it too; the others light
 //! everything within their radius, wherever they stand.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::graph::{Node, NodeId};
@@ -11,12 +13,12 @@ use crate::scene::{Environment, Light, LightKind};
 
 impl Walk<'_> {
     /// Adds the directional lights of a VRML group that is being opened.
-    pub(in crate::resolve) fn lights_of_group(&mut self, group: NodeId, first: usize, end: usize) {
+    pub(in crate::resolve) fn lights_of_group(&mut self, group: NodeId, shown: Range<usize>) {
         if !self.has_vrml_lights || !self.is_vrml_group(group) {
             return;
         }
         let graph = self.graph;
-        for &child in &graph.node(group).children[first..end] {
+        for &child in &graph.node(group).children[shown] {
             if graph.node(child).class() == Some(Class::VRMLDirectionalLight) {
                 self.vrml_directional_light(child);
             }
@@ -25,7 +27,7 @@ impl Walk<'_> {
 
     pub(super) fn vrml_directional_light(&mut self, id: NodeId) {
         let node = self.graph.node(id);
-        if !node.flag("on") || !self.can_place(node) {
+        if !node.flag("on") || self.drops_views(node) || !self.can_place(node) {
             return;
         }
         let direction = unit(DVec3::from(node.triple("direction"))).unwrap_or(DVec3::NEG_Z);
@@ -39,7 +41,7 @@ impl Walk<'_> {
 
     pub(super) fn vrml_point_light(&mut self, class: Class, id: NodeId) {
         let node = self.graph.node(id);
-        if !node.flag("on") || !self.can_place(node) {
+        if !node.flag("on") || self.drops_views(node) || !self.can_place(node) {
             return;
         }
         let location = DVec3::from(node.triple("location"));

@@ -14,6 +14,7 @@ use iv_parser::{Dialect, Severity};
 use crate::graph::{Node, NodeId};
 use crate::registry::{Class, Support};
 
+use super::alternatives::Choice;
 use super::transforms::rotation;
 use super::walk::Walk;
 
@@ -36,21 +37,10 @@ impl Walk<'_> {
             Class::VRMLSwitch => {
                 let chosen = usize::try_from(node.int("whichChoice"));
                 let chosen = chosen.ok().filter(|&i| i < count);
-                if count > usize::from(chosen.is_some()) {
-                    let text = "a Switch hides some of its children, which are left out";
-                    self.left_out(text, node);
-                }
-                if let Some(chosen) = chosen {
-                    self.open(id, chosen, chosen + 1, true);
-                }
+                let shown = chosen.map_or(0..0, |i| i..i + 1);
+                self.open_choice(id, shown, Choice::Switch, true);
             }
-            Class::VRMLLOD => {
-                if count > 1 {
-                    let text = "of levels of detail only the finest is used";
-                    self.left_out(text, node);
-                }
-                self.open(id, 0, count.min(1), true);
-            }
+            Class::VRMLLOD => self.open_choice(id, 0..count.min(1), Choice::Levels, true),
             Class::VRMLShape => self.vrml_shape(id, node),
             Class::VRMLDirectionalLight if self.stands_in_vrml() => {}
             Class::VRMLDirectionalLight => self.vrml_directional_light(id),
