@@ -11,6 +11,7 @@ mod include;
 #[cfg(test)]
 mod kit_tests;
 mod kits;
+mod late;
 mod names;
 mod node;
 mod proto;
@@ -35,6 +36,7 @@ use crate::registry::Class;
 
 use expand::Expansion;
 use include::Includes;
+use late::Late;
 use names::{Names, Reference, Scope};
 use proto::Protos;
 
@@ -64,11 +66,13 @@ pub fn load_with(
         includes: Includes::new(loader),
         protos: Protos::default(),
         expansion: Expansion::default(),
+        late: Late::default(),
         limits: *limits,
     };
     let root = builder.file(bytes, name.into(), folder, Class::Separator);
     builder.includes.know_root(name, folder, root);
     builder.complete();
+    builder.settle_late();
     Graph {
         fonts: Vec::new(),
         nodes: builder.nodes,
@@ -85,6 +89,7 @@ struct Builder<'l> {
     includes: Includes<'l>,
     protos: Protos,
     expansion: Expansion,
+    late: Late,
     limits: iv_parser::Limits,
 }
 
@@ -124,9 +129,6 @@ impl Builder<'_> {
                 owner: iv_parser::NodeId(0),
                 scope: None,
                 vrml2: header.dialect == Dialect::Vrml2,
-                compounds: Vec::new(),
-                links: Vec::new(),
-                inputs: connect::Inputs::default(),
                 routes: 0,
                 guesses: FxHashMap::default(),
                 dropped: 0,
@@ -251,11 +253,6 @@ struct File<'b, 't, 'a, 'l> {
     scope: Scope,
     /// The file is VRML 2.
     vrml2: bool,
-    /// Parts of parts of kits met so far.
-    compounds: Vec<kits::Compound>,
-    /// Connected fields without values met so far.
-    links: Vec<connect::Link>,
-    inputs: connect::Inputs,
     /// ROUTEs met so far.
     routes: usize,
     /// Hints for the unknown classes met so far.

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use iv_parser::{Dialect, Severity};
 use rustc_hash::FxHashMap;
 
-use crate::graph::{FieldValue, Graph, Kind, Node, NodeId};
+use crate::graph::{Graph, Kind, Node, NodeId};
 use crate::registry::{Class, Family, Support};
 use crate::remarks::Remarks;
 use crate::scene::{self, Placement, Scene};
@@ -541,13 +541,7 @@ impl<'g> Walk<'g> {
 fn several_parents(graph: &Graph) -> Vec<bool> {
     let mut has_one = vec![false; graph.nodes().len()];
     let mut has_more = has_one.clone();
-    let handles = graph.nodes().iter().flat_map(|node| {
-        let in_fields = node.fields.iter().flat_map(|f| match &f.value {
-            FieldValue::Nodes(nodes) => &nodes[..],
-            _ => &[],
-        });
-        node.children.iter().chain(in_fields)
-    });
+    let handles = graph.nodes().iter().flat_map(Node::handles);
     for child in handles {
         let index = child.0 as usize;
         has_more[index] |= std::mem::replace(&mut has_one[index], true);
