@@ -5,6 +5,9 @@ use std::sync::Arc;
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use rustc_hash::FxHashMap;
 
+/// Different messages that are kept; of each further code there is one more.
+const MAX_KINDS: usize = 500;
+
 /// Collects remarks; repeated ones are counted, not kept.
 #[derive(Debug, Default)]
 pub struct Remarks {
@@ -37,6 +40,12 @@ impl Remarks {
         hint: &'static str,
         pos: SourcePos,
     ) {
+        // A message that is another one each time must not fill up memory.
+        let is_full = self.list.len() >= MAX_KINDS;
+        let message = match is_full && !self.index.contains_key(&(code, message.to_owned())) {
+            true => "there is more of this kind",
+            false => message,
+        };
         let key = (code, message.to_owned());
         if let Some(&i) = self.index.get(&key) {
             self.list[i].count += 1;

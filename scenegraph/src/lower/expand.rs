@@ -177,7 +177,7 @@ impl Builder<'_> {
             return false;
         }
         if !std::mem::replace(&mut self.expansion.reported, true) {
-            let message = "prototypes expand to more nodes than can be read".to_owned();
+            let message = format!("prototypes expand to more than {MAX_COPIED} nodes and fields");
             let hint = "the rest was left out";
             self.say(Severity::Error, "too-many-copies", message, hint, instance);
         }

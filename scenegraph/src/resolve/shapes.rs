@@ -81,17 +81,20 @@ impl Walk<'_> {
         let attributes = Attributes::of(&job);
         let builder = &mut self.builder;
         let made = match self.options.geometry {
-            Geometry::Build => {
-                let limit = self.options.limits.geometry_bytes;
-                self.shapes
-                    .mesh(&job, &attributes, &mut self.remarks, limit, |mesh| {
-                        builder.mesh(mesh)
-                    })
-            }
+            Geometry::Build => self
+                .shapes
+                .mesh(&job, &attributes, &mut self.remarks, |mesh| {
+                    builder.mesh(mesh)
+                }),
             Geometry::Measure => self
                 .shapes
                 .measure(&job, &attributes, |measure| builder.measure(measure)),
         };
+        if self.shapes.made_bytes() > self.limits.geometry_bytes {
+            let limit = self.limits.geometry_bytes >> 20;
+            let what = format!("its geometry takes more than {limit} MiB");
+            self.stop("too-much-geometry", &what, graph.node(id).pos);
+        }
         if let Some(made) = made {
             let mut placement = self.place(placed);
             if placement.name.is_none() {

@@ -22,6 +22,13 @@ pub struct Measure {
     pub bounds: Aabb,
 }
 
+/// Whether a shape must be made to be measured.
+pub fn makes_mesh(job: &Job<'_>) -> bool {
+    text::is_text(job.class)
+        || is_nurbs(job.class)
+        || matches!(job.style, Style::Lines | Style::Points)
+}
+
 /// The size of a shape; `None` if it draws nothing.
 pub fn measure(
     job: &Job<'_>,

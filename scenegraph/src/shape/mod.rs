@@ -67,6 +67,10 @@ pub(crate) fn has_profiles(class: Class) -> bool {
     nurbs::is_trimmed(class) || class == Class::Text3
 }
 
+/// What a mesh takes: each index, and each vertex with all it may have.
+const BYTES_EACH_INDEX: usize = 4;
+const BYTES_EACH_VERTEX: usize = 48;
+
 /// A mesh that was made, and what its material must know.
 #[derive(Clone, Copy, Debug)]
 pub struct Made {
@@ -147,31 +151,21 @@ impl ShapeMaker {
         job: &Job<'_>,
         attributes: &Attributes<'_>,
         remarks: &mut Remarks,
-        byte_limit: usize,
         keep: impl FnOnce(Mesh) -> MeshId,
     ) -> Option<Made> {
         let key = job.shared.then(|| Self::key(job, attributes));
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
-        let made = if self.bytes > byte_limit {
-            remarks.warn(
-                "too-much-geometry",
-                "the model makes more geometry than is allowed",
-                "the rest was left out",
-                attributes.pos,
-            );
-            None
-        } else {
-            self.make(job, attributes, remarks).map(|mesh| {
-                self.bytes += 4 * mesh.indices.len() + 48 * mesh.positions.len();
-                Made {
-                    lit: !mesh.normals.is_empty(),
-                    textured: !mesh.texcoords.is_empty(),
-                    mesh: keep(mesh),
-                }
-            })
-        };
+        let made = self.make(job, attributes, remarks).map(|mesh| {
+            self.bytes +=
+                BYTES_EACH_INDEX * mesh.indices.len() + BYTES_EACH_VERTEX * mesh.positions.len();
+            Made {
+                lit: !mesh.normals.is_empty(),
+                textured: !mesh.texcoords.is_empty(),
+                mesh: keep(mesh),
+            }
+        });
         self.cache.extend(key.map(|key| (key, made)));
         made
     }
@@ -187,13 +181,24 @@ impl ShapeMaker {
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
-        let made = measure::measure(job, attributes, &mut self.glyphs).map(|measure| Made {
-            lit: measure.topology == Topology::Triangles,
-            textured: job.state.texture.is_some(),
-            mesh: keep(measure),
+        let made = measure::measure(job, attributes, &mut self.glyphs).map(|measure| {
+            if measure::makes_mesh(job) {
+                // A closed surface has half as many vertices as triangles, others have more.
+                self.bytes += (3 * BYTES_EACH_INDEX + BYTES_EACH_VERTEX / 2) * measure.primitives;
+            }
+            Made {
+                lit: measure.topology == Topology::Triangles,
+                textured: job.state.texture.is_some(),
+                mesh: keep(measure),
+            }
         });
         self.cache.extend(key.map(|key| (key, made)));
         made
+    }
+
+    /// Bytes of all meshes that were made, also for measuring; those of the last one included.
+    pub fn made_bytes(&self) -> usize {
+        self.bytes
     }
 
     fn make(
