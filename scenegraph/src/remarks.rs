@@ -40,6 +40,19 @@ impl Remarks {
         hint: &'static str,
         pos: SourcePos,
     ) {
+        self.count(severity, code, message, hint, pos, 1);
+    }
+
+    /// As [`Self::add`], of so many things at once.
+    pub fn count(
+        &mut self,
+        severity: Severity,
+        code: &'static str,
+        message: &str,
+        hint: &'static str,
+        pos: SourcePos,
+        count: usize,
+    ) {
         // A message that is another one each time must not fill up memory.
         let is_full = self.list.len() >= MAX_KINDS;
         let message = match is_full && !self.index.contains_key(&(code, message.to_owned())) {
@@ -48,7 +61,7 @@ impl Remarks {
         };
         let key = (code, message.to_owned());
         if let Some(&i) = self.index.get(&key) {
-            self.list[i].count += 1;
+            self.list[i].count += count;
             return;
         }
         self.index.insert(key, self.list.len());
@@ -58,7 +71,7 @@ impl Remarks {
             message: message.to_owned(),
             hint,
             pos,
-            count: 1,
+            count,
         });
     }
 

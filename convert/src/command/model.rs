@@ -58,7 +58,7 @@ impl Loader for Files {
 }
 
 /// Opens an input: a plain file, a gzip or bzip2 stream, or a model in a zip archive, told by
-/// content.
+/// content. What is packed several times comes out whole, as of included files.
 ///
 /// # Errors
 ///
@@ -90,6 +90,11 @@ fn in_archive(path: &Path, mut opened: Opened, access: &Access) -> Result<Opened
     for refused in &archive.refused {
         let message = format!("the entry `{}` is not used: {}", refused.name, refused.why);
         opened.remark(Severity::Warning, "refused-entry", message, "");
+    }
+    if archive.has_repeated_names {
+        let message = "several entries of the archive have the same name".to_owned();
+        let hint = "of each name the last entry is used; look at them with `unzip -l`";
+        opened.remark(Severity::Warning, "repeated-entry", message, hint);
     }
     let (entry, others) = model_in(&archive)?;
     let inside = entry.name.clone();

@@ -16,7 +16,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Builder;
 use super::connect::Link;
-use super::include::file_part;
+use super::include::{Failure, file_part};
 use super::node::settle;
 use super::proto::{Instance, follow_links};
 use crate::graph::{FieldValue, Kind, Node, NodeId};
@@ -338,9 +338,10 @@ impl Builder<'_> {
         for url in &urls {
             let name = url.split_once('#').map(|(_, name)| name);
             let found = self.library(file_part(url), from).and_then(|file| {
-                self.protos
-                    .find(file, name, index)
-                    .ok_or_else(|| "it has no PROTO of that name".to_owned())
+                self.protos.find(file, name, index).ok_or_else(|| Failure {
+                    message: "it has no PROTO of that name".to_owned(),
+                    hint: "",
+                })
             });
             match found {
                 Ok(found) => return Some(found),

@@ -78,7 +78,7 @@ pub fn load_with(
         nodes: builder.nodes,
         root,
         files: builder.files,
-        diagnostics: builder.diagnostics,
+        diagnostics: iv_parser::collapsed(builder.diagnostics),
     }
 }
 

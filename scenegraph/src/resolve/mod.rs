@@ -35,7 +35,7 @@ pub(crate) use state::{Binding, ColorSource, Ordering, ProfileList, State, Style
 pub enum Geometry {
     /// Meshes.
     Build,
-    /// Counts and bounds only: [`Resolved::measures`].
+    /// Counts and bounds only: [`Resolved::measures`]. Each mesh is made and measured, none kept.
     Measure,
 }
 

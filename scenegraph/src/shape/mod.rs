@@ -145,7 +145,7 @@ impl ShapeMaker {
         }
     }
 
-    /// The mesh of a shape, made by `keep` when it is new; `None` if it draws nothing.
+    /// The mesh of a shape, kept by `keep` when it is new; `None` if it draws nothing.
     pub fn mesh(
         &mut self,
         job: &Job<'_>,
@@ -170,33 +170,7 @@ impl ShapeMaker {
         made
     }
 
-    /// As [`Self::mesh`], without making it.
-    pub fn measure(
-        &mut self,
-        job: &Job<'_>,
-        attributes: &Attributes<'_>,
-        keep: impl FnOnce(Measure) -> MeshId,
-    ) -> Option<Made> {
-        let key = job.shared.then(|| Self::key(job, attributes));
-        if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
-            return *known;
-        }
-        let made = measure::measure(job, attributes, &mut self.glyphs).map(|measure| {
-            if measure::makes_mesh(job) {
-                // A closed surface has half as many vertices as triangles, others have more.
-                self.bytes += (3 * BYTES_EACH_INDEX + BYTES_EACH_VERTEX / 2) * measure.primitives;
-            }
-            Made {
-                lit: measure.topology == Topology::Triangles,
-                textured: job.state.texture.is_some(),
-                mesh: keep(measure),
-            }
-        });
-        self.cache.extend(key.map(|key| (key, made)));
-        made
-    }
-
-    /// Bytes of all meshes that were made, also for measuring; those of the last one included.
+    /// Bytes of all meshes that were made.
     pub fn made_bytes(&self) -> usize {
         self.bytes
     }
