@@ -52,6 +52,10 @@ impl Loader for Files {
         self.loader().read(id)
     }
 
+    fn beginning(&self, id: &Path, len: u64) -> Result<Vec<u8>, LoadError> {
+        self.loader().beginning(id, len)
+    }
+
     fn unpack_limits(&self) -> unpack::Limits {
         self.loader().unpack_limits()
     }

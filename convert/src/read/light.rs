@@ -31,6 +31,7 @@ pub(crate) struct Lamp {
     intensity: f64,
     attenuation: [f64; 3],
     beam: Option<Beam>,
+    radius_in_world: Option<f64>,
     /// Its environment, if the file says.
     pub(crate) environment: Option<usize>,
 }
@@ -66,6 +67,8 @@ impl Lamp {
         };
         let directional = matches!(kind, LightKind::Directional { .. });
         let default = Environment::default().attenuation;
+        let range = source.range.map(f64::from).filter(|_| !directional);
+        let radius_in_world = range.filter(|r| *r > 0.0 && r.is_finite());
         Some(match iv {
             Some(iv) => Self {
                 kind,
@@ -73,6 +76,7 @@ impl Lamp {
                 intensity: iv.number("intensity", 1.0),
                 attenuation: iv.triple("attenuation", default),
                 beam: iv.beam(),
+                radius_in_world,
                 environment: iv.index("environment"),
             },
             None => Self {
@@ -81,6 +85,7 @@ impl Lamp {
                 intensity: f64::from(source.intensity.clamp(0.0, f32::MAX)) / PI,
                 attenuation: if directional { default } else { INVERSE_SQUARE },
                 beam: None,
+                radius_in_world,
                 environment: None,
             },
         })
@@ -106,6 +111,7 @@ impl Lamp {
             color_srgb: self.color_srgb,
             intensity: self.intensity,
             beam: self.beam,
+            radius_in_world: self.radius_in_world,
             environment: EnvironmentId(environment as u32),
         }
     }

@@ -207,6 +207,7 @@ impl Build {
             color_srgb: [1.0; 3],
             intensity: 1.0,
             beam: None,
+            radius_in_world: None,
             environment: EnvironmentId(0),
         });
     }

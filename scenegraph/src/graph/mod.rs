@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use iv_parser::{Diagnostic, Header, SourcePos};
+use rustc_hash::FxHashMap;
 
 use crate::font::AddedFont;
 use crate::registry::Class;
@@ -72,6 +73,8 @@ pub struct SourceFile {
 #[derive(Clone, Debug)]
 pub struct Graph {
     pub(crate) nodes: Vec<Node>,
+    /// Components of the pictures of `ImageTexture`s, as far as they are known.
+    pub(crate) pictures: FxHashMap<NodeId, u8>,
     /// The root: the only `Separator` at the top of the file, or one around all that is there.
     pub root: NodeId,
     /// The files read; the first is the one asked for.

@@ -48,6 +48,10 @@ impl<'l> Includes<'l> {
         }
     }
 
+    pub(super) fn loader(&self) -> &'l dyn Loader {
+        self.loader
+    }
+
     pub(super) fn unpack_limits(&self) -> unpack::Limits {
         self.loader.unpack_limits()
     }

@@ -14,6 +14,7 @@ mod kits;
 mod late;
 mod names;
 mod node;
+mod pictures;
 mod proto;
 mod schema;
 mod swept;
@@ -40,6 +41,7 @@ use late::Late;
 use names::{Names, Reference, Scope};
 use proto::Protos;
 
+pub(crate) use pictures::picture_name;
 pub use schema::RegistryLayout;
 pub(crate) use value::read_default;
 
@@ -73,8 +75,10 @@ pub fn load_with(
     builder.includes.know_root(name, folder, root);
     builder.complete();
     builder.settle_late();
+    let pictures = builder.look_at_pictures();
     Graph {
         fonts: Vec::new(),
+        pictures,
         nodes: builder.nodes,
         root,
         files: builder.files,

@@ -96,6 +96,7 @@ impl Boxes {
             root,
             files: std::mem::take(&mut builder.files),
             fonts: Vec::new(),
+            pictures: FxHashMap::default(),
             diagnostics: Vec::new(),
         };
         let options = ResolveOptions {
