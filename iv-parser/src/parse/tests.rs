@@ -414,7 +414,7 @@ fn a_missing_brace_is_looked_for_by_indentation() {
 #[test]
 fn what_is_said_again_and_again_is_said_once() {
     let text = b"#Inventor V2.1 ascii\n) ) Cube { widht 1 } ) Cube { widht 2 }";
-    let parsed = crate::parse(text);
+    let parsed = parse(text);
     assert!(parsed.problems.len() > 2);
     let name = "a.iv".into();
     let source = crate::Source {
