@@ -154,7 +154,8 @@ impl Assembler {
         self.made_normals = made;
         if topology == Topology::Triangles {
             let dropped = drop_collapsed(&mut mesh) + self.without_area;
-            if dropped > 0 {
+            // Of a shape that is given by rule the ends may meet in a point.
+            if dropped > 0 && job.made.is_none() {
                 remarks.count(
                     Severity::Note,
                     "degenerate",
