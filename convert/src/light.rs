@@ -81,6 +81,9 @@ pub(crate) fn write(
         if strength != 1.0 {
             json.key("intensity").f32(strength as f32);
         }
+        if let Some(range) = range(light, bounds) {
+            json.key("range").f32(range as f32);
+        }
         if let LightKind::Spot {
             drop_off_rate,
             cut_off_angle_rad,
@@ -127,13 +130,32 @@ pub(crate) fn strength(
     }
 }
 
-/// d_ref, in the world; `None` for a directional light.
-fn reference_distance(light: &Light, [a, b, c]: [f64; 3], bounds: Option<&Bounds>) -> Option<f64> {
+/// How far a light reaches, if that is not as far as the scene. Up to there VRML's light is as
+/// without an end; glTF's is multiplied by 1 - (d / range)^4, so it ends softly, and is darker by
+/// 6 % at half the way and by 41 % at four fifths.
+fn range(light: &Light, bounds: Option<&Bounds>) -> Option<f64> {
+    let p_in_world = p_in_world(light)?;
+    let bounds = bounds?;
+    let farthest = p_in_world.distance(bounds.center()) + bounds.radius();
+    // f32 holds it as a number above 0.
+    let in_f32 = |r: &f64| (f64::from(f32::MIN_POSITIVE)..f64::from(f32::MAX)).contains(r);
+    light
+        .radius_in_world
+        .filter(|radius| in_f32(radius) && *radius < farthest)
+}
+
+/// Where a light is; `None` for a directional one.
+fn p_in_world(light: &Light) -> Option<DVec3> {
     let location = match light.kind {
         LightKind::Directional { .. } => return None,
         LightKind::Point { location } | LightKind::Spot { location, .. } => location,
     };
-    let p_in_world = light.placement.world_from_local.transform_point3(location);
+    Some(light.placement.world_from_local.transform_point3(location))
+}
+
+/// d_ref, in the world; `None` for a directional light.
+fn reference_distance(light: &Light, [a, b, c]: [f64; 3], bounds: Option<&Bounds>) -> Option<f64> {
+    let p_in_world = p_in_world(light)?;
     let centre = distance_to_centre(p_in_world, bounds);
     // The positive root of a d^2 + b d - c, in the form that does not cancel.
     let half = 2.0 * c / (b + (b * b + 4.0 * a * c).sqrt());

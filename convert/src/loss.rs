@@ -119,7 +119,9 @@ impl LossKind {
                 "glTF light falls with the square of the distance; it is right where the source's \
                  light has fallen to half, at least a quarter of the way to the centre of the \
                  scene's bounds and at most there. The factors are in the light's \
-                 `extras.iv.attenuation`, that distance in `extras.iv.referenceDistance`",
+                 `extras.iv.attenuation`, that distance in `extras.iv.referenceDistance`. A radius of \
+                 VRML 2 is glTF's `range`, towards which light fades by 1 - (d / range)^4 where \
+                 VRML's ends at once",
             ),
             Self::SpotDropOff => (
                 "spot-drop-off",
@@ -127,7 +129,8 @@ impl LossKind {
                 "a spot light's edge is softer or harder than in the source",
                 "a cosine power becomes a smooth step between two angles, the inner one where the \
                  power has fallen to nine tenths; the rate is in the light's \
-                 `extras.iv.dropOffRate`",
+                 `extras.iv.dropOffRate`. The ramp of a beam (a photorealism hint) is kept if its \
+                 exponent is 2, glTF's; its cones are kept always",
             ),
             Self::OneSidedLighting => (
                 "one-sided-lighting",

@@ -13,6 +13,8 @@ use crate::material::{GltfMaterial, VertexColors};
 /// Ambient light of Inventor's default environment on its default material. No more than this is
 /// missing in most models, and a viewer's own ambient light makes up for it.
 const UNNOTICED_AMBIENT: f64 = 0.2 * 0.2;
+/// Of the ramp between glTF's two cones.
+const GLTF_EXPONENT: f64 = 2.0;
 /// Room for values that went through f32.
 const AMBIENT_TOLERANCE: f64 = 1e-6;
 
@@ -147,9 +149,19 @@ impl<'s> Remarks<'s> {
             let [a, b, c] = self.scene.environments[light.environment.index()].attenuation;
             self.losses
                 .add(LossKind::LightAttenuation, pos, || format!("{a} {b} {c}"));
-            if let LightKind::Spot { drop_off_rate, .. } = light.kind {
-                self.losses
-                    .add(LossKind::SpotDropOff, pos, || drop_off_rate.to_string());
+            let LightKind::Spot { drop_off_rate, .. } = light.kind else {
+                continue;
+            };
+            match light.beam {
+                // glTF's cones have this very ramp.
+                Some(beam) if beam.exponent == GLTF_EXPONENT => {}
+                Some(beam) => self.losses.add(LossKind::SpotDropOff, pos, || {
+                    format!("concentrationExponent {}", beam.exponent)
+                }),
+                None if drop_off_rate == 0.0 => {}
+                None => self
+                    .losses
+                    .add(LossKind::SpotDropOff, pos, || drop_off_rate.to_string()),
             }
         }
     }

@@ -4,7 +4,9 @@
 //! format are not diagnostics; they belong to the writer.
 
 use std::borrow::Cow;
-use std::fmt;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::fmt::{self, Write};
 use std::sync::Arc;
 
 /// How bad it is.
@@ -95,6 +97,37 @@ pub struct Diagnostic {
     pub pos: SourcePos,
     /// The text there, where it was at hand.
     pub snippet: Option<Snippet>,
+}
+
+/// Makes one of those that say the same of the same file, with their number. The first one stays
+/// where it is.
+#[must_use]
+pub fn collapsed(all: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let mut places: HashMap<(u32, &'static str, String, String), usize> = HashMap::new();
+    let mut kept: Vec<(Diagnostic, usize)> = Vec::new();
+    for one in all {
+        let key = (
+            one.pos.file,
+            one.code,
+            one.message.clone(),
+            one.hint.clone(),
+        );
+        match places.entry(key) {
+            Entry::Occupied(place) => kept[*place.get()].1 += 1,
+            Entry::Vacant(place) => {
+                place.insert(kept.len());
+                kept.push((one, 1));
+            }
+        }
+    }
+    let finish = |(mut one, count): (Diagnostic, usize)| {
+        if count > 1 {
+            // Writing to a String does not fail.
+            let _ = write!(one.message, " ({count} times, first here)");
+        }
+        one
+    };
+    kept.into_iter().map(finish).collect()
 }
 
 impl fmt::Display for Severity {

@@ -26,7 +26,7 @@ mod text;
 mod tree;
 
 pub use binary::{ClassShape, Schema, ValueKind, ValueType, has_binary_form, print_binary};
-pub use diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
+pub use diagnostic::{Diagnostic, Severity, Snippet, SourcePos, collapsed};
 pub use edit::TextEdits;
 pub use header::{Dialect, Encoding, Header};
 pub use limits::Limits;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use memchr::{memchr, memchr_iter, memrchr};
 
-use crate::diagnostic::{Diagnostic, Severity, Snippet, SourcePos};
+use crate::diagnostic::{Diagnostic, Severity, Snippet, SourcePos, collapsed};
 use crate::header::is_binary;
 
 /// A range of bytes.
@@ -101,13 +101,13 @@ pub struct Source<'a> {
 const SNIPPET_CHARS: usize = 120;
 
 impl Source<'_> {
-    /// The problems in order of place, each with its line and the text there. One pass over the
-    /// text serves all.
+    /// The problems in order of place, each with its line and the text there; those that say the
+    /// same are one, at the place of the first. One pass over the text serves all.
     pub fn diagnostics(&self, mut problems: Vec<Problem>) -> Vec<Diagnostic> {
         problems.sort_by_key(|p| p.span.start);
         let mut lines = LineCounter::new(self.file);
         let finish = |problem| self.diagnostic(problem, &mut lines);
-        problems.into_iter().map(finish).collect()
+        collapsed(problems.into_iter().map(finish).collect())
     }
 
     fn diagnostic(&self, problem: Problem, lines: &mut LineCounter) -> Diagnostic {

@@ -55,6 +55,17 @@ pub trait Loader {
     /// Says why it cannot be read.
     fn read(&self, id: &Path) -> Result<Vec<u8>, LoadError>;
 
+    /// At most `len` bytes of its beginning.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    fn beginning(&self, id: &Path, len: u64) -> Result<Vec<u8>, LoadError> {
+        let mut bytes = self.read(id)?;
+        bytes.truncate(usize::try_from(len).unwrap_or(usize::MAX));
+        Ok(bytes)
+    }
+
     /// How much may come out of a file that is packed.
     fn unpack_limits(&self) -> unpack::Limits {
         unpack::Limits::default()
@@ -174,6 +185,17 @@ impl Loader for FileLoader {
             return Err(LoadError::Outside);
         }
         read_limited(id).map_err(LoadError::Unreadable)
+    }
+
+    fn beginning(&self, id: &Path, len: u64) -> Result<Vec<u8>, LoadError> {
+        if !self.allows(id) {
+            return Err(LoadError::Outside);
+        }
+        let unreadable = |error: std::io::Error| LoadError::Unreadable(error.to_string());
+        let mut bytes = Vec::new();
+        let file = fs::File::open(id).map_err(unreadable)?;
+        file.take(len).read_to_end(&mut bytes).map_err(unreadable)?;
+        Ok(bytes)
     }
 }
 

@@ -5,6 +5,9 @@ use std::sync::Arc;
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use rustc_hash::FxHashMap;
 
+/// Different messages that are kept; of each further code there is one more.
+const MAX_KINDS: usize = 500;
+
 /// Collects remarks; repeated ones are counted, not kept.
 #[derive(Debug, Default)]
 pub struct Remarks {
@@ -37,9 +40,28 @@ impl Remarks {
         hint: &'static str,
         pos: SourcePos,
     ) {
+        self.count(severity, code, message, hint, pos, 1);
+    }
+
+    /// As [`Self::add`], of so many things at once.
+    pub fn count(
+        &mut self,
+        severity: Severity,
+        code: &'static str,
+        message: &str,
+        hint: &'static str,
+        pos: SourcePos,
+        count: usize,
+    ) {
+        // A message that is another one each time must not fill up memory.
+        let is_full = self.list.len() >= MAX_KINDS;
+        let message = match is_full && !self.index.contains_key(&(code, message.to_owned())) {
+            true => "there is more of this kind",
+            false => message,
+        };
         let key = (code, message.to_owned());
         if let Some(&i) = self.index.get(&key) {
-            self.list[i].count += 1;
+            self.list[i].count += count;
             return;
         }
         self.index.insert(key, self.list.len());
@@ -49,7 +71,7 @@ impl Remarks {
             message: message.to_owned(),
             hint,
             pos,
-            count: 1,
+            count,
         });
     }
 

@@ -23,7 +23,7 @@ pub const ALL: &[Hostile] = &[
         || iv("DEF A Separator { USE A Cube { } }"),
         "cycle",
     ),
-    hostile("2^30 copies by sharing", shared, "too-many-nodes"),
+    hostile("2^30 copies by sharing", shared, "too-many-items"),
     hostile(
         "2^30 copies of nothing",
         || shared_leaf(""),

@@ -1,5 +1,7 @@
 //! Zip archives: what is in them, and the bytes of one entry.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry as Place;
 use std::io::{Cursor, Read};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -35,6 +37,9 @@ pub struct Archive {
     pub entries: Vec<Entry>,
     /// What is not among them.
     pub refused: Vec<Refused>,
+    /// Whether several entries have the same name. The last of each is among the entries: it is
+    /// what programs that unpack them one by one leave.
+    pub has_repeated_names: bool,
     password: Option<Vec<u8>>,
     limits: Limits,
     packed: u64,
@@ -61,6 +66,9 @@ impl Archive {
         let archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| words(&error))?;
         let mut entries = Vec::new();
         let mut refused = Vec::new();
+        // Names that are the same as they are written do not come out of the reader.
+        let mut has_repeated_names = archive.has_duplicate_names();
+        let mut places: HashMap<String, usize> = HashMap::new();
         for index in 0..archive.len() {
             let entry = archive
                 .by_index_data(index)
@@ -75,13 +83,23 @@ impl Archive {
             };
             match clean {
                 _ if entry.is_dir() => {}
-                Ok(name) => entries.push(Entry { name, index }),
+                Ok(name) => match places.entry(name.clone()) {
+                    Place::Occupied(place) => {
+                        entries[*place.get()] = Entry { name, index };
+                        has_repeated_names = true;
+                    }
+                    Place::Vacant(place) => {
+                        place.insert(entries.len());
+                        entries.push(Entry { name, index });
+                    }
+                },
                 Err(why) => refused.push(Refused { name, why }),
             }
         }
         Ok(Self {
             entries,
             refused,
+            has_repeated_names,
             password: password.map(<[u8]>::to_vec),
             limits,
             packed,

@@ -2,7 +2,7 @@
 //!
 //! What something is packed in is told by its first bytes, never by its name. Nothing is opened
 //! and nothing is written: bytes in, bytes out, within [`Limits`]. An archive in an archive is not
-//! followed.
+//! followed; a stream in a stream is, a few times.
 
 mod archive;
 mod limits;
@@ -72,6 +72,11 @@ pub enum Error {
     PasswordWrong,
     /// It is packed in a way that is not known here.
     Unsupported(String),
+    /// Streams within streams.
+    TooManyLayers {
+        /// Most that are unpacked.
+        limit: u32,
+    },
     /// More entries than any model has.
     TooManyEntries,
 }
@@ -92,6 +97,7 @@ impl fmt::Display for Error {
             Self::PasswordNeeded => f.write_str("it takes a password"),
             Self::PasswordWrong => f.write_str("the password is wrong"),
             Self::Unsupported(why) => write!(f, "it is packed in an unknown way: {why}"),
+            Self::TooManyLayers { limit } => write!(f, "it is packed more than {limit} times"),
             Self::TooManyEntries => f.write_str("it has more than 65535 entries"),
         }
     }

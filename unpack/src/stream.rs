@@ -17,28 +17,70 @@ pub struct Unpacked {
     pub damage: Option<String>,
 }
 
-/// Unpacks a gzip or bzip2 stream; `None` for bytes that are neither. A stream that breaks off
-/// gives what came out before.
+/// Most streams within each other. A file that was packed once more by a server or a mail program
+/// is packed twice.
+const MAX_LAYERS: u32 = 4;
+
+/// Unpacks a gzip or bzip2 stream, and streams in it; `None` for bytes that are neither. What comes
+/// out is no stream any more. A stream that breaks off gives what came out before.
 ///
 /// # Errors
 ///
-/// When nothing came out, or more than the limits allow.
+/// When nothing came out, or more than the limits allow, all streams together.
 pub fn unpack(bytes: &[u8], limits: &Limits) -> Option<Result<Unpacked, Error>> {
-    let mut stream: Box<dyn Read + '_> = match Format::of(bytes)? {
-        Format::Gzip => Box::new(MultiGzDecoder::new(bytes)),
-        Format::Bzip2 => Box::new(MultiBzDecoder::new(bytes)),
-        Format::Zip => return None,
-    };
+    let mut stream = decoder(bytes)?;
     let packed = bytes.len() as u64;
+    let mut unpacked = match layer(&mut *stream, packed, 0, limits) {
+        Ok(unpacked) => unpacked,
+        Err(error) => return Some(Err(error)),
+    };
+    let mut total = unpacked.bytes.len() as u64;
+    let mut layers = 1;
+    loop {
+        let Some(mut stream) = decoder(&unpacked.bytes) else {
+            return Some(Ok(unpacked));
+        };
+        if layers == MAX_LAYERS {
+            return Some(Err(Error::TooManyLayers { limit: MAX_LAYERS }));
+        }
+        layers += 1;
+        let inner = match layer(&mut *stream, packed, total, limits) {
+            Ok(inner) => inner,
+            Err(error) => return Some(Err(error)),
+        };
+        drop(stream);
+        total += inner.bytes.len() as u64;
+        unpacked = Unpacked {
+            bytes: inner.bytes,
+            damage: unpacked.damage.or(inner.damage),
+        };
+    }
+}
+
+fn decoder(bytes: &[u8]) -> Option<Box<dyn Read + '_>> {
+    match Format::of(bytes)? {
+        Format::Gzip => Some(Box::new(MultiGzDecoder::new(bytes))),
+        Format::Bzip2 => Some(Box::new(MultiBzDecoder::new(bytes))),
+        Format::Zip => None,
+    }
+}
+
+/// What one stream holds. The input has `packed` bytes, out of which `before` came before.
+fn layer(
+    stream: &mut dyn Read,
+    packed: u64,
+    before: u64,
+    limits: &Limits,
+) -> Result<Unpacked, Error> {
     // Text is packed to about a fifth.
-    let drained = drain(&mut *stream, packed, 0, 5 * packed, limits);
-    Some(drained.and_then(|drained| match drained.fault {
+    let drained = drain(stream, packed, before, 5 * packed, limits)?;
+    match drained.fault {
         Some(fault) if drained.bytes.is_empty() => Err(Error::Damaged(fault.to_string())),
         fault => Ok(Unpacked {
             bytes: drained.bytes,
             damage: fault.map(|fault| fault.to_string()),
         }),
-    }))
+    }
 }
 
 #[cfg(test)]
@@ -81,6 +123,31 @@ pub(crate) mod tests {
         }
         assert_eq!(unpack(b"#Inventor", &Limits::default()), None);
         assert_eq!(unpack(b"", &Limits::default()), None);
+    }
+
+    #[test]
+    fn streams_in_streams_come_out_whole() {
+        let bytes = noise(100_000);
+        let mut packed = bytes.clone();
+        for layers in 1..=MAX_LAYERS + 1 {
+            packed = match layers % 2 {
+                0 => bzip2(&packed),
+                _ => gzip(&packed),
+            };
+            let out = unpack(&packed, &Limits::default()).unwrap();
+            match layers <= MAX_LAYERS {
+                true => assert!(out.unwrap().bytes == bytes, "{layers} layers"),
+                false => assert_eq!(out, Err(Error::TooManyLayers { limit: MAX_LAYERS })),
+            }
+        }
+        // All that comes out counts.
+        let twice = gzip(&gzip(&bytes));
+        let limit = 150_000;
+        let out = unpack(&twice, &Limits::of_bytes(limit)).unwrap();
+        assert_eq!(out, Err(Error::TooLong { limit }));
+        let inner_cut = gzip(&gzip(&bytes)[..50_000]);
+        let out = unpack(&inner_cut, &Limits::default()).unwrap().unwrap();
+        assert!(out.damage.is_some() && bytes.starts_with(&out.bytes));
     }
 
     #[test]

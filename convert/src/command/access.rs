@@ -24,7 +24,7 @@ pub struct PackedArgs {
     pub password_file: Option<PathBuf>,
 
     /// Most MiB that may come out of a packed input [default: 1024, and 200 times its length]
-    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+    #[arg(long, value_name = "MIB", value_parser = mebibytes)]
     pub max_unpacked: Option<u64>,
 }
 
@@ -61,6 +61,16 @@ impl Access {
             .chain(self.search.iter().map(PathBuf::as_path));
         FileLoader::new(folders).with_unpack_limits(self.limits)
     }
+}
+
+/// Most that `--max-unpacked` takes: a tebibyte.
+const MOST_MEBIBYTES: u64 = 1 << 20;
+
+fn mebibytes(text: &str) -> Result<u64, String> {
+    let number = text.trim().parse().ok();
+    number
+        .filter(|mib| (1..=MOST_MEBIBYTES).contains(mib))
+        .ok_or_else(|| format!("it is a whole number of MiB, from 1 to {MOST_MEBIBYTES}"))
 }
 
 fn password(packed: &PackedArgs) -> Result<Option<Vec<u8>>, String> {

@@ -111,6 +111,17 @@ impl Loader for ArchiveLoader {
         bytes.map_err(|error| LoadError::Unreadable(error.to_string()))
     }
 
+    fn beginning(&self, id: &Path, len: u64) -> Result<Vec<u8>, LoadError> {
+        let Ok(inside) = id.strip_prefix(&self.path) else {
+            return self.folders.beginning(id, len);
+        };
+        let entry = self
+            .entry(&inside.to_string_lossy())
+            .ok_or(LoadError::NotFound)?;
+        let bytes = self.archive.beginning(entry, len);
+        bytes.map_err(|error| LoadError::Unreadable(error.to_string()))
+    }
+
     fn unpack_limits(&self) -> unpack::Limits {
         self.folders.unpack_limits()
     }

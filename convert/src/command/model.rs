@@ -52,13 +52,17 @@ impl Loader for Files {
         self.loader().read(id)
     }
 
+    fn beginning(&self, id: &Path, len: u64) -> Result<Vec<u8>, LoadError> {
+        self.loader().beginning(id, len)
+    }
+
     fn unpack_limits(&self) -> unpack::Limits {
         self.loader().unpack_limits()
     }
 }
 
 /// Opens an input: a plain file, a gzip or bzip2 stream, or a model in a zip archive, told by
-/// content.
+/// content. What is packed several times comes out whole, as of included files.
 ///
 /// # Errors
 ///
@@ -90,6 +94,11 @@ fn in_archive(path: &Path, mut opened: Opened, access: &Access) -> Result<Opened
     for refused in &archive.refused {
         let message = format!("the entry `{}` is not used: {}", refused.name, refused.why);
         opened.remark(Severity::Warning, "refused-entry", message, "");
+    }
+    if archive.has_repeated_names {
+        let message = "several entries of the archive have the same name".to_owned();
+        let hint = "of each name the last entry is used; look at them with `unzip -l`";
+        opened.remark(Severity::Warning, "repeated-entry", message, hint);
     }
     let (entry, others) = model_in(&archive)?;
     let inside = entry.name.clone();

@@ -64,6 +64,10 @@ pub(crate) fn turn(scene: &mut Scene, options: &Options) {
         .cameras
         .iter_mut()
         .for_each(|c| within(&mut c.placement));
+    for light in &mut scene.lights {
+        let radius = light.radius_in_world.map(|r| r * options.metres_per_unit);
+        light.radius_in_world = radius;
+    }
     for environment in &mut scene.environments {
         measure(environment, options.metres_per_unit);
     }

@@ -40,6 +40,7 @@ pub(crate) struct Lamp {
     /// By which number light sets call it, if not by that in the file; `None` for a light that came
     /// after them.
     pub(crate) is_in_sets: Option<Option<usize>>,
+    radius_in_world: Option<f64>,
     /// Its environment, if the file says.
     pub(crate) environment: Option<usize>,
 }
@@ -68,12 +69,14 @@ impl Lamp {
         };
         let directional = matches!(kind, LightKind::Directional { .. });
         let default = Environment::default().attenuation;
+        let range = source.range.map(f64::from).filter(|_| !directional);
         let mut lamp = Self {
             kind,
             color_srgb: source.color.map(|v| srgb_from_linear(v.into())),
             intensity: f64::from(source.intensity.clamp(0.0, f32::MAX)) / PI,
             attenuation: if directional { default } else { INVERSE_SQUARE },
             beam: None,
+            radius_in_world: range.filter(|r| *r > 0.0 && r.is_finite()),
             environment: None,
             is_in_sets: Iv::of(&source.extras).map(|iv| iv.index("number")),
         };
@@ -149,6 +152,7 @@ impl Lamp {
             color_srgb: self.color_srgb,
             intensity: self.intensity,
             beam: self.beam,
+            radius_in_world: self.radius_in_world,
             environment: EnvironmentId(environment as u32),
         }
     }

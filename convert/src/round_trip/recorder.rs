@@ -69,6 +69,11 @@ impl Loader for Recorder<'_> {
         Ok(id)
     }
 
+    /// A look at a file does not make it one that the model needs.
+    fn beginning(&self, id: &Path, len: u64) -> Result<Vec<u8>, LoadError> {
+        self.loader.beginning(id, len)
+    }
+
     fn unpack_limits(&self) -> unpack::Limits {
         self.loader.unpack_limits()
     }

@@ -59,7 +59,10 @@ fn triangles(path: &Path) -> (u64, u64) {
     let document = gltf::Gltf::open(path).unwrap();
     let of = |mesh: gltf::Mesh<'_>| -> usize {
         mesh.primitives()
-            .map(|p| p.indices().unwrap().count() / 3)
+            .map(|p| {
+                let corners = p.indices().or(p.get(&gltf::Semantic::Positions));
+                corners.unwrap().count() / 3
+            })
             .sum()
     };
     let unique = document.meshes().map(of).sum::<usize>();
@@ -69,6 +72,42 @@ fn triangles(path: &Path) -> (u64, u64) {
         .map(of)
         .sum::<usize>();
     (unique as u64, drawn as u64)
+}
+
+#[test]
+fn info_counts_what_is_written_and_says_what_is_not() {
+    // Sound triangles, then: collapsed ones, a polygon on a line, indices that nothing has.
+    let body = "Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0, 2 0 0, 3 0 0 ] } \
+                IndexedFaceSet { coordIndex [ 0,1,2,-1, 0,1,1,-1, 0,1,3,4,-1, 0,1,9,-1 ] } \
+                Complexity { value 0.1 } Sphere { } Text3 { string \"ab\" }";
+    let place = Place::new().model("bad.iv", body);
+    let info = place.run("--info bad.iv --json");
+    let info_json: Value = serde_json::from_str(&info.out).unwrap();
+    let convert = place.run("bad.iv --report r.json");
+    let report = place.json("r.json");
+    assert_eq!(convert.code, 0, "{}", convert.err);
+    let (unique, drawn) = triangles(&place.path("bad.glb"));
+    let counts = &info_json["inputs"][0]["content"]["triangles"];
+    assert_eq!(counts["unique"], unique);
+    assert_eq!(counts["instanced"], drawn);
+    let said = |input: &Value| -> Vec<(String, String)> {
+        let list = input["inputs"][0]["diagnostics"].as_array().unwrap();
+        let text = |v: &Value| v.as_str().unwrap().to_owned();
+        list.iter()
+            .map(|d| (text(&d["code"]), text(&d["message"])))
+            .collect()
+    };
+    assert_eq!(said(&info_json), said(&report));
+    let wanted = "triangles without an area are left out (3 times, first here)";
+    let found = said(&report);
+    assert!(
+        found.contains(&("degenerate".into(), wanted.into())),
+        "{found:?}"
+    );
+    assert!(
+        found.iter().any(|(code, _)| code == "bad-index"),
+        "{found:?}"
+    );
 }
 
 #[test]

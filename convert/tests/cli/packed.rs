@@ -42,7 +42,9 @@ fn what_a_model_is_packed_in_does_not_matter() {
             "a.ivz",
             &zip(&[("readme.txt", b"x"), ("dir/a.iv", &plain)], None),
         )
-        .bytes("b.iv", &zip(&[("b.ivx", &gzip(&plain))], None));
+        .bytes("b.iv", &zip(&[("b.ivx", &gzip(&plain))], None))
+        .bytes("twice.iv", &gzip(&gzip(&plain)))
+        .bytes("c.zip", &zip(&[("c.iv", &gzip(&gzip(&plain)))], None));
     assert_eq!(place.run("plain.iv --out-dir out").code, 0);
     let wanted = std::fs::read(place.path("out/plain.glb")).unwrap();
     for (input, output) in [
@@ -50,14 +52,71 @@ fn what_a_model_is_packed_in_does_not_matter() {
         ("odd.name", "odd.glb"),
         ("a.ivz", "a.glb"),
         ("b.iv", "b.glb"),
+        ("twice.iv", "twice.glb"),
+        ("c.zip", "c.glb"),
     ] {
         let run = place.run(&format!("{input} --strict --out-dir out"));
         assert_eq!(run.code, 0, "{input}: {}", run.err);
         let got = std::fs::read(place.path("out").join(output)).unwrap();
         assert!(got == wanted, "{input}");
     }
+    // Text is written from what is read.
+    assert_eq!(place.run("plain.iv -o out/plain.iv").code, 0);
+    let wanted = std::fs::read(place.path("out/plain.iv")).unwrap();
+    for input in ["packed.iv.gz", "b.iv", "twice.iv", "c.zip"] {
+        let run = place.run(&format!("{input} --strict -o out/text.iv"));
+        assert_eq!(run.code, 0, "{input}: {}", run.err);
+        let got = std::fs::read(place.path("out/text.iv")).unwrap();
+        assert!(got == wanted, "{input}");
+    }
     let run = place.run("--info a.ivz");
     assert_eq!(run.code, 0, "{}", run.err);
+}
+
+#[test]
+fn odd_archives_are_explained() {
+    let mut deep = model(CUBE);
+    for _ in 0..6 {
+        deep = gzip(&deep);
+    }
+    let twins = zip(
+        &[("./a.iv", &model("Sphere { }")), ("a.iv", &model(CUBE))],
+        None,
+    );
+    let own = zip(
+        &[("a.iv", &model("File { name \"gone/a.iv\" } Cube { }"))],
+        None,
+    );
+    let place = Place::new()
+        .bytes("deep.iv", &deep)
+        .bytes("twins.zip", &twins)
+        .bytes("own.zip", &own);
+    for output in ["glb", "iv"] {
+        let run = place.run(&format!("deep.iv -o deep-out.{output}"));
+        assert_eq!(run.code, 2, "{}", run.err);
+        assert!(
+            run.err.contains("it is packed more than 4 times"),
+            "{}",
+            run.err
+        );
+    }
+    let run = place.run("twins.zip --report r.json");
+    assert_eq!(run.code, 0, "{}", run.err);
+    let said = "warning[repeated-entry]: several entries of the archive have the same name";
+    assert_eq!(run.err.matches(said).count(), 1, "{}", run.err);
+    // The last one is the cube.
+    let counts = &place.json("r.json")["inputs"][0]["counts"];
+    assert_eq!(counts["triangles"]["unique"], 12);
+    let run = place.run("own.zip");
+    assert!(run.err.contains("includes this file"), "{}", run.err);
+    assert!(run.err.contains("if another file is meant"), "{}", run.err);
+    assert!(!run.err.contains("it is looked for"), "{}", run.err);
+    for bad in ["many", "0", "-1", "1.5", "9999999"] {
+        let run = place.run(&format!("twins.zip --max-unpacked={bad}"));
+        assert_eq!(run.code, 2, "{}", run.err);
+        let said = "it is a whole number of MiB, from 1 to 1048576";
+        assert!(run.err.contains(said), "{bad}: {}", run.err);
+    }
 }
 
 #[test]

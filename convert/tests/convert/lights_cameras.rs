@@ -7,6 +7,7 @@ use scenegraph::scene::{Camera, Environment, LightKind, Mesh, Projection, Viewpo
 use serde_json::{Value, json};
 
 use crate::read::{Converted, convert};
+use crate::reading::read;
 use crate::scenes::{Build, material, scale, shift, triangle, turn};
 
 const DOWN: LightKind = LightKind::Directional {
@@ -37,6 +38,30 @@ fn centered() -> Build {
 
 fn light(converted: &Converted, index: usize) -> &Value {
     converted.at(&format!("/extensions/KHR_lights_punctual/lights/{index}"))
+}
+
+#[test]
+fn a_radius_that_ends_in_the_scene_is_a_range() {
+    // The scene is within a ball of radius sqrt 2 about the origin.
+    let rows = [
+        (point(10.0), Some(9.0), Some(9.0)),
+        (point(10.0), Some(11.0), Some(11.0)),
+        (point(10.0), Some(11.5), None),
+        (point(10.0), None, None),
+        (point(10.0), Some(0.0), None),
+        (spot(0.0, 0.5), Some(3.0), Some(3.0)),
+    ];
+    for (kind, radius_in_world, wanted) in rows {
+        let mut build = centered();
+        build.light(None, DAffine3::IDENTITY, kind);
+        build.scene.lights[0].radius_in_world = radius_in_world;
+        let converted = convert(&build.scene);
+        let found = light(&converted, 0).get("range").and_then(Value::as_f64);
+        assert_eq!(found, wanted, "{radius_in_world:?}");
+        let model = read(&converted.json, &converted.bin).unwrap();
+        let again = model.scene.lights[0].radius_in_world;
+        assert_eq!(again, wanted, "{radius_in_world:?}");
+    }
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use convert::LossKind;
 use glam::{DAffine3, DVec3};
 use scenegraph::scene::{
-    Environment, EnvironmentId, Faces, Fog, FogType, LightId, LightKind, LightModel, LightSetId,
-    Material, Projection, ViewportMapping,
+    Beam, Environment, EnvironmentId, Faces, Fog, FogType, LightId, LightKind, LightModel,
+    LightSetId, Material, Projection, ViewportMapping,
 };
 use serde_json::{Value, json};
 
@@ -39,7 +39,7 @@ fn fog() -> Environment {
 fn each_loss_is_reported_once_with_its_count() {
     use LossKind::*;
     type Make = fn() -> Build;
-    let rows: [(&[(LossKind, u32)], Make); 14] = [
+    let rows: [(&[(LossKind, u32)], Make); 16] = [
         (&[], two_shapes),
         (&[(Fog, 2)], || {
             let mut build = two_shapes();
@@ -108,6 +108,11 @@ fn each_loss_is_reported_once_with_its_count() {
                 },
             );
             build
+        }),
+        // A beam is glTF's own cone, but for the exponent of its ramp.
+        (&[(LightAttenuation, 1)], || spot_with_beam(2.0)),
+        (&[(LightAttenuation, 1), (SpotDropOff, 1)], || {
+            spot_with_beam(1.0)
         }),
         (&[(OneSidedLighting, 1)], || {
             let faces = Faces::BothOneSidedLighting;
@@ -295,4 +300,23 @@ fn light_sets_are_in_extras_unless_all_lights_reach_all() {
         &json!({"iv": {"lightSet": 1}})
     );
     assert_eq!(converted.at("/nodes/1/extras"), &Value::Null);
+}
+
+fn spot_with_beam(exponent: f64) -> Build {
+    let mut build = two_shapes();
+    build.light(
+        None,
+        ID,
+        LightKind::Spot {
+            location: DVec3::X,
+            direction: DVec3::Y,
+            drop_off_rate: 0.5,
+            cut_off_angle_rad: 0.5,
+        },
+    );
+    build.scene.lights[0].beam = Some(Beam {
+        inner_angle_rad: 0.25,
+        exponent,
+    });
+    build
 }

@@ -209,6 +209,7 @@ impl Build {
             color_srgb: [1.0; 3],
             intensity: 1.0,
             beam: None,
+            radius_in_world: None,
             environment: EnvironmentId(0),
         });
     }

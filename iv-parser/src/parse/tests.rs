@@ -410,3 +410,25 @@ fn a_missing_brace_is_looked_for_by_indentation() {
         assert_eq!(named, line, "{text:?}: {}", found[0].hint);
     }
 }
+
+#[test]
+fn what_is_said_again_and_again_is_said_once() {
+    let text = b"#Inventor V2.1 ascii\n) ) Cube { widht 1 } ) Cube { widht 2 }";
+    let parsed = parse(text);
+    assert!(parsed.problems.len() > 2);
+    let name = "a.iv".into();
+    let source = crate::Source {
+        name: &name,
+        file: 0,
+        bytes: text,
+    };
+    let said = source.diagnostics(parsed.problems);
+    let messages: Vec<(u32, u32, &str)> = said
+        .iter()
+        .map(|d| (d.pos.line, d.pos.column, &*d.message))
+        .collect();
+    assert_eq!(
+        messages,
+        [(2, 1, "a node was expected here (3 times, first here)")]
+    );
+}

@@ -1,8 +1,8 @@
 //! The typed scene graph: nodes in an arena, fields with typed values, sharing by equal handles.
 //!
 //! The graph owns all it holds; nothing of the text it was read from is needed any more. It is
-//! acyclic: `USE` inside its own definition and files that include themselves are refused when it
-//! is built.
+//! acyclic: `USE` inside its own definition, files that include themselves and parts of kits that
+//! hold their kit are refused when it is built.
 
 mod defaults;
 mod value;
@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use iv_parser::{Diagnostic, Header, SourcePos};
+use rustc_hash::FxHashMap;
 
 use crate::font::AddedFont;
 use crate::registry::Class;
@@ -72,6 +73,8 @@ pub struct SourceFile {
 #[derive(Clone, Debug)]
 pub struct Graph {
     pub(crate) nodes: Vec<Node>,
+    /// Components of the pictures of `ImageTexture`s, as far as they are known.
+    pub(crate) pictures: FxHashMap<NodeId, u8>,
     /// The root: the only `Separator` at the top of the file, or one around all that is there.
     pub root: NodeId,
     /// The files read; the first is the one asked for.
@@ -222,6 +225,15 @@ impl Node {
     /// A text field, or the first of a list of texts.
     pub fn text(&self, field: &str) -> Option<&Arc<str>> {
         self.value(field).texts().first()
+    }
+
+    /// All nodes that it holds: its children, then those in its fields.
+    pub(crate) fn handles(&self) -> impl Iterator<Item = NodeId> {
+        let in_fields = self.fields.iter().flat_map(|f| match &f.value {
+            FieldValue::Nodes(nodes) => &nodes[..],
+            _ => &[],
+        });
+        self.children.iter().chain(in_fields).copied()
     }
 
     /// A node field.

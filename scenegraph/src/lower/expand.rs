@@ -15,7 +15,8 @@ use iv_parser::{Diagnostic, Severity};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Builder;
-use super::include::file_part;
+use super::connect::Link;
+use super::include::{Failure, file_part};
 use super::node::settle;
 use super::proto::{Instance, follow_links};
 use crate::graph::{FieldValue, Kind, Node, NodeId};
@@ -80,6 +81,13 @@ impl Copy {
                 *node = self.place(*node, nodes);
             }
         }
+    }
+}
+
+impl Expansion {
+    /// For each prototype that has instances the nodes that those do not share.
+    pub fn own_sets(&self) -> impl Iterator<Item = &FxHashSet<NodeId>> {
+        self.own.values().map(|own| &**own)
     }
 }
 
@@ -169,7 +177,7 @@ impl Builder<'_> {
             return false;
         }
         if !std::mem::replace(&mut self.expansion.reported, true) {
-            let message = "prototypes expand to more nodes than can be read".to_owned();
+            let message = format!("prototypes expand to more than {MAX_COPIED} nodes and fields");
             let hint = "the rest was left out";
             self.say(Severity::Error, "too-many-copies", message, hint, instance);
         }
@@ -202,7 +210,19 @@ impl Builder<'_> {
                 node.class(),
                 Some(Class::VRMLInline | Class::File | Class::WWWInline)
             );
-            let is_linked = self.protos.links.contains_key(&id);
+            for link in self.late.links_of(id) {
+                holders.entry(link.master).or_default().push(id);
+            }
+            let inputs = self.late.inputs.get(&id).into_iter().flatten();
+            let in_inputs = inputs.filter_map(|(_, value)| match value {
+                FieldValue::Nodes(nodes) => Some(&nodes[..]),
+                _ => None,
+            });
+            for &held in in_inputs.flatten() {
+                holders.entry(held).or_default().push(id);
+            }
+            let is_linked =
+                self.protos.links.contains_key(&id) || self.protos.input_links.contains_key(&id);
             if includes || is_linked || self.protos.templates.contains_key(&id) {
                 open.push(id);
             }
@@ -245,6 +265,7 @@ impl Builder<'_> {
             self.protos.pending.push_back(inner);
         }
         settle(&mut node);
+        self.copy_joints(template, copy, &value);
         self.expansion.copied += 1 + node.children.len();
         self.expansion.copied += node.fields.iter().map(|f| cost(&f.value)).sum::<usize>();
         // The name of an instance says more than that of what it is made of.
@@ -252,6 +273,33 @@ impl Builder<'_> {
         node.name = own.or(node.name);
         self.note_include(place, &node);
         self.nodes[place.0 as usize] = node;
+    }
+
+    /// Joins a copy as its template is joined.
+    fn copy_joints(
+        &mut self,
+        template: NodeId,
+        copy: &mut Copy,
+        value: &impl Fn(u32) -> Option<FieldValue>,
+    ) {
+        let place = copy.place(template, &mut self.nodes);
+        let links: Vec<Link> = self.late.links_of(template).cloned().collect();
+        self.expansion.copied += links.len();
+        for mut link in links {
+            link.slave = place;
+            link.master = copy.place(link.master, &mut self.nodes);
+            self.late.add_link(link);
+        }
+        let mut inputs = self.late.inputs.get(&template).cloned().unwrap_or_default();
+        for (_, input) in &mut inputs {
+            copy.place_all(input, &mut self.nodes);
+        }
+        let linked = self.protos.input_links.get(&template).into_iter().flatten();
+        inputs.extend(linked.filter_map(|(name, slot)| Some((name.clone(), value(*slot)?))));
+        if !inputs.is_empty() {
+            self.expansion.copied += inputs.iter().map(|(_, v)| cost(v)).sum::<usize>();
+            self.late.inputs.insert(place, inputs);
+        }
     }
 
     /// The definition of an instance: that of its prototype, or where the EXTERNPROTO leads.
@@ -290,9 +338,10 @@ impl Builder<'_> {
         for url in &urls {
             let name = url.split_once('#').map(|(_, name)| name);
             let found = self.library(file_part(url), from).and_then(|file| {
-                self.protos
-                    .find(file, name, index)
-                    .ok_or_else(|| "it has no PROTO of that name".to_owned())
+                self.protos.find(file, name, index).ok_or_else(|| Failure {
+                    message: "it has no PROTO of that name".to_owned(),
+                    hint: "",
+                })
             });
             match found {
                 Ok(found) => return Some(found),

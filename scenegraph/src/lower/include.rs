@@ -12,7 +12,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Builder;
 use crate::graph::{Node, NodeId};
-use crate::loader::Loader;
+use crate::loader::{LoadError, Loader};
 use crate::registry::Class;
 
 /// Most files that one model may bring in.
@@ -46,6 +46,10 @@ impl<'l> Includes<'l> {
             edges: Vec::new(),
             connected: FxHashSet::default(),
         }
+    }
+
+    pub(super) fn loader(&self) -> &'l dyn Loader {
+        self.loader
     }
 
     pub(super) fn unpack_limits(&self) -> unpack::Limits {
@@ -85,6 +89,30 @@ impl<'l> Includes<'l> {
             self.edges.resize_with(size, Vec::new);
         }
         self.edges[from as usize].push(to);
+    }
+}
+
+/// Why a file is not included.
+#[derive(Debug)]
+pub(super) struct Failure {
+    pub message: String,
+    /// What can be done about it.
+    pub hint: &'static str,
+}
+
+impl Failure {
+    pub fn of(error: LoadError) -> Self {
+        Self {
+            message: error.to_string(),
+            hint: match error {
+                LoadError::NotFound => {
+                    "it is looked for beside this file, then beside the first file, then in the \
+                     --search folders"
+                }
+                LoadError::Outside => "--search allows a folder",
+                LoadError::Remote | LoadError::Unreadable(_) => "",
+            },
+        }
     }
 }
 
@@ -160,21 +188,15 @@ impl Builder<'_> {
         &mut self,
         severity: Severity,
         name: &str,
-        why: &str,
+        why: &Failure,
         file: u32,
         pos: SourcePos,
     ) {
         self.diagnostics.push(Diagnostic {
             severity,
             code: "include",
-            message: format!("`{name}` is not included: {why}"),
-            hint: if name.contains("://") {
-                String::new()
-            } else {
-                "it is looked for beside this file, then beside the first file, then in the \
-                 --search folders"
-                    .to_owned()
-            },
+            message: format!("`{name}` is not included: {}", why.message),
+            hint: why.hint.to_owned(),
             file: Arc::clone(&self.files[file as usize].name),
             pos,
             snippet: None,
@@ -182,21 +204,21 @@ impl Builder<'_> {
     }
 
     /// The number and the root of the file called `name` by file number `from`.
-    pub(super) fn open(&mut self, name: &str, from: u32) -> Result<(u32, NodeId), String> {
+    pub(super) fn open(&mut self, name: &str, from: u32) -> Result<(u32, NodeId), Failure> {
         let folder = self.files[from as usize].folder.clone();
         let loader = self.includes.loader;
-        let id = loader.find(&folder, name).map_err(|e| e.to_string())?;
+        let id = loader.find(&folder, name).map_err(Failure::of)?;
         self.included(id, from)
     }
 
     /// The number of the file called `name` by file number `from`, which may be that file itself.
-    pub(super) fn library(&mut self, name: &str, from: u32) -> Result<u32, String> {
+    pub(super) fn library(&mut self, name: &str, from: u32) -> Result<u32, Failure> {
         if name.is_empty() {
             return Ok(from);
         }
         let folder = self.files[from as usize].folder.clone();
         let loader = self.includes.loader;
-        let id = loader.find(&folder, name).map_err(|e| e.to_string())?;
+        let id = loader.find(&folder, name).map_err(Failure::of)?;
         match self.includes.known.get(&id) {
             Some(&(file, _)) if file == from => Ok(from),
             _ => self.included(id, from).map(|(file, _)| file),
@@ -213,24 +235,32 @@ impl Builder<'_> {
         }
     }
 
-    fn included(&mut self, id: PathBuf, from: u32) -> Result<(u32, NodeId), String> {
+    fn included(&mut self, id: PathBuf, from: u32) -> Result<(u32, NodeId), Failure> {
         let known = self.includes.known.get(&id).copied();
         if let Some((file, root)) = known {
             // What is connected already was found to be without a circle.
             let is_new = !self.includes.connected.contains(&(from, file));
             if is_new && self.includes.reaches(file, from) {
-                return Err(format!(
-                    "`{}`, which was found for it, includes this file, and that would never end",
-                    self.files[file as usize].name
-                ));
+                return Err(Failure {
+                    message: format!(
+                        "`{}`, which was found for it, includes this file, and that would never \
+                         end",
+                        self.files[file as usize].name
+                    ),
+                    hint: "if another file is meant, put it beside this one or give its folder \
+                           with --search",
+                });
             }
             self.includes.connect(from, file);
             return Ok((file, root));
         }
         if self.files.len() >= MAX_FILES {
-            return Err(format!("more than {MAX_FILES} files"));
+            return Err(Failure {
+                message: format!("the model has more than {MAX_FILES} files"),
+                hint: "",
+            });
         }
-        let bytes = self.includes.loader.read(&id).map_err(|e| e.to_string())?;
+        let bytes = self.includes.loader.read(&id).map_err(Failure::of)?;
         let file = self.files.len() as u32;
         self.includes.connect(from, file);
         let name = self.shown(&id);

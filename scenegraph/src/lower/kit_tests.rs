@@ -12,7 +12,11 @@ type Drawn = (DVec3, [f64; 3], usize);
 
 /// What is drawn, and all codes.
 fn drawn(body: &str) -> (Vec<Drawn>, Vec<&'static str>, Scene) {
-    let text = format!("#Inventor V2.1 ascii\nSeparator {{ {body} }}");
+    drawn_text(&format!("#Inventor V2.1 ascii\nSeparator {{ {body} }}"))
+}
+
+/// As `drawn`, of a whole text.
+fn drawn_text(text: &str) -> (Vec<Drawn>, Vec<&'static str>, Scene) {
     let graph = load(text.as_bytes(), "t.iv", Path::new(""), &FileLoader::new([]));
     let resolved = resolve(&graph, &ResolveOptions::default());
     let scene = resolved.scene;
@@ -128,6 +132,122 @@ fn kits_draw_what_their_parts_do() {
         assert_eq!(shown, drawn(&plain).0, "{name}");
         assert_eq!(said, codes, "{name}");
     }
+}
+
+#[test]
+fn a_part_that_holds_its_kit_is_refused() {
+    let rows: &[(&str, &str, &str)] = &[
+        (
+            "by way of a group",
+            "DEF A AppearanceKit { } \
+             ShapeKit { appearance USE A appearance.material DEF B Group { USE A } }",
+            "Cube {}",
+        ),
+        (
+            "at once",
+            "DEF A AppearanceKit { } ShapeKit { appearance USE A appearance.material USE A }",
+            "Cube {}",
+        ),
+        (
+            "by way of a part that was put there before",
+            "DEF A AppearanceKit { } DEF B AppearanceKit { } \
+             ShapeKit { appearance USE A appearance.material USE B } \
+             ShapeKit { appearance USE B appearance.material USE A }",
+            "Cube {} Cube {}",
+        ),
+    ];
+    for (name, kit, plain) in rows {
+        let (shown, said, _) = drawn(kit);
+        assert_eq!(shown, drawn(plain).0, "{name}");
+        assert_eq!(said, ["cycle"], "{name}");
+    }
+    // The same part twice is no circle.
+    let (_, said, _) = drawn(
+        "DEF M Material {} ShapeKit { appearance.material USE M } \
+         ShapeKit { appearance.material USE M }",
+    );
+    assert_eq!(said, [] as [&str; 0]);
+}
+
+#[test]
+fn prototypes_copy_kits_and_connections() {
+    let red = "BaseColor { rgb 1 0 0 }";
+    let rows: Vec<(&str, String, String)> = vec![
+        (
+            "a part from the interface",
+            format!(
+                "PROTO P [ field SFNode m NULL ] {{ ShapeKit {{ appearance AppearanceKit {{ material IS m }} }} }} \
+                 P {{ m {red} }} P {{ }}"
+            ),
+            format!("Separator {{ {red} Cube {{}} }} Cube {{}}"),
+        ),
+        (
+            "an engine fed by the interface",
+            "PROTO P [ field MFFloat x 3 ] { Separator { Translation { translation = \
+             ComposeVec3f { x IS x y 1 } . vector } Cube { } } } P { x 7 } P { }"
+                .into(),
+            "Separator { Translation { translation 7 1 0 } Cube {} } \
+             Separator { Translation { translation 3 1 0 } Cube {} }"
+                .into(),
+        ),
+        (
+            "field to field",
+            "PROTO P [ field SFVec3f t 0 0 0 ] { Separator { DEF T Translation { translation IS t } \
+             Cube { } Translation { translation = USE T . translation } Cube { } } } P { t 1 2 3 }"
+                .into(),
+            "Separator { Translation { translation 1 2 3 } Cube {} \
+             Translation { translation 1 2 3 } Cube {} }"
+                .into(),
+        ),
+        (
+            "an input that no class lists",
+            "PROTO P [ field SFVec3f t 0 0 0 ] { Separator { Translation { translation = Gate { \
+             type \"SFVec3f\" enable TRUE input IS t } . output } Cube { } } } P { t 1 2 3 }"
+                .into(),
+            "Translation { translation 1 2 3 } Cube {}".into(),
+        ),
+        (
+            "the box around a part of the interface",
+            "PROTO P [ field SFNode n NULL ] { Separator { Translation { translation = \
+             ComputeBoundingBox { node Group { Shuttle { } Separator { AppearanceKit { } \
+             WrapperKit { contents IS n } } } } . max } Cube { } } } P { n Cube { width 6 } }"
+                .into(),
+            "Translation { translation 3 1 1 } Cube {}".into(),
+        ),
+        (
+            "prototypes in prototypes",
+            "PROTO Q [ field MFFloat x 1 ] { Separator { Translation { translation = \
+             ComposeVec3f { x IS x } . vector } ShapeKit { } } } \
+             PROTO P [ field MFFloat x 2 ] { Q { x IS x } } P { } P { x 5 }"
+                .into(),
+            "Separator { Translation { translation 2 0 0 } Cube {} } \
+             Separator { Translation { translation 5 0 0 } Cube {} }"
+                .into(),
+        ),
+    ];
+    for (name, proto, plain) in rows {
+        // Only VRML 2 has prototypes; as in Coin, its files may hold nodes of Inventor.
+        let vrml = |body: &str| drawn_text(&format!("#VRML V2.0 utf8\n{body}"));
+        let (shown, said, _) = vrml(&proto);
+        assert!(!shown.is_empty(), "{name}");
+        assert_eq!(shown, vrml(&plain).0, "{name}");
+        assert_eq!(said, [] as [&str; 0], "{name}");
+    }
+}
+
+#[test]
+fn clip_planes_are_said_with_their_planes() {
+    let text = "#Inventor V2.1 ascii\nSeparator { Translation { translation 0 0 5 }\n\
+                ClipPlane { plane 0 0 2 3 }\nClipPlane { on FALSE } Cube {} }";
+    let graph = load(text.as_bytes(), "t.iv", Path::new(""), &FileLoader::new([]));
+    let said = resolve(&graph, &ResolveOptions::default()).diagnostics;
+    let said: Vec<(&str, u32, &str)> = said
+        .iter()
+        .map(|d| (d.code, d.pos.line, &*d.message))
+        .collect();
+    let wanted = "a ClipPlane cuts nothing off: the plane through (0.000000, 0.000000, 8.000000) \
+                  that keeps what lies towards (0.000000, 0.000000, 1.000000)";
+    assert_eq!(said, [("clip-plane", 3, wanted)]);
 }
 
 #[test]

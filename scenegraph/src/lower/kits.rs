@@ -2,12 +2,16 @@
 //! is the order of traversal. `appearance.material` is the part `material` of the part
 //! `appearance`, which is made if it is not there (SoBaseKit in the Inventor Reference).
 
-use iv_parser::{Severity, Span};
+use iv_parser::Severity;
+use rustc_hash::FxHashSet;
 
-use super::File;
+use super::Builder;
 use super::upgrade::set;
 use crate::graph::{FieldValue, Kind, Node, NodeId};
 use crate::registry::{Class, Family, FieldType};
+
+/// Handles that are followed to find out which parts would hold themselves, all parts together.
+const MAX_SEARCHED: usize = 10_000_000;
 
 /// A part given by the path to it.
 pub(super) struct Compound {
@@ -17,8 +21,6 @@ pub(super) struct Compound {
     pub path: String,
     /// The part.
     pub part: NodeId,
-    /// Where it stands.
-    pub span: Span,
 }
 
 /// Parts that hold others and are not written to files, and those that draw nothing.
@@ -31,54 +33,69 @@ const INNER: [&str; 6] = [
     "geomSeparator",
 ];
 
-/// Gives kits their children; all nodes of the file are in the graph.
-pub(super) fn settle(file: &mut File<'_, '_, '_, '_>, mut kits: Vec<NodeId>) {
-    for compound in std::mem::take(&mut file.compounds) {
-        let made = place(&mut file.builder.nodes, &compound, &mut kits);
-        if made.is_none() {
-            let message = format!("`{}` is no part that a kit has here", compound.path);
-            let hint = "a part within a part needs the outer one to be there; it was left out";
-            file.problem(
+/// Why a part cannot be put where its path says.
+enum Refused {
+    /// The path leads nowhere.
+    Unknown,
+    /// The part holds the kit that would hold it.
+    Cycle,
+    /// It could not be found out in reasonable time.
+    Undecided,
+}
+
+/// Puts parts where their paths say.
+pub(super) fn place_all(builder: &mut Builder<'_>, compounds: Vec<Compound>) {
+    let mut room = MAX_SEARCHED;
+    for compound in compounds {
+        let Err(why) = place(&mut builder.nodes, &compound, &mut room) else {
+            continue;
+        };
+        let path = &compound.path;
+        let (severity, code, message, hint) = match why {
+            Refused::Unknown => (
                 Severity::Warning,
                 "unknown-part",
-                message,
-                hint,
-                compound.span,
-            );
-        }
-    }
-    for kit in kits {
-        let children = children(file, kit);
-        file.builder.nodes[kit.0 as usize].children = children;
+                format!("`{path}` is no part that a kit has here"),
+                "a part within a part needs the outer one to be there; it was left out",
+            ),
+            Refused::Cycle => (
+                Severity::Error,
+                "cycle",
+                format!("the part `{path}` holds the kit that it is a part of"),
+                "a node cannot hold itself; the part was left out",
+            ),
+            Refused::Undecided => (
+                Severity::Error,
+                "too-many-parts",
+                format!("it takes too long to find out whether `{path}` holds itself"),
+                "the part was left out; there are too many parts within parts",
+            ),
+        };
+        builder.late_problem(severity, code, message, hint, compound.kit);
     }
 }
 
 /// Puts a part where its path says.
-fn place(nodes: &mut Vec<Node>, compound: &Compound, kits: &mut Vec<NodeId>) -> Option<()> {
+fn place(nodes: &mut Vec<Node>, compound: &Compound, room: &mut usize) -> Result<(), Refused> {
     let mut kit = compound.kit;
     let mut names = compound.path.split('.').peekable();
     while let Some(name) = names.next() {
         let node = &nodes[kit.0 as usize];
-        let spec = node.class()?.spec();
-        let (_, field) = spec.field(name.as_bytes())?;
-        if !matches!(spec.family, Family::Kit) || field.field_type != FieldType::SFNode {
-            return None;
-        }
-        let existing = node.node_field(name);
+        let existing = held(node, name).ok_or(Refused::Unknown)?;
         let held = match (names.peek(), existing) {
-            (None, _) => compound.part,
+            (None, _) => {
+                check_part(nodes, compound.part, kit, room)?;
+                compound.part
+            }
             (Some(_), Some(held)) => {
                 kit = held;
                 continue;
             }
             (Some(_), None) if name == "appearance" => {
-                let pos = node.pos;
-                nodes.push(bare(Class::AppearanceKit, pos));
-                let made = NodeId(nodes.len() as u32 - 1);
-                kits.push(made);
-                made
+                nodes.push(bare(Class::AppearanceKit, node.pos));
+                NodeId(nodes.len() as u32 - 1)
             }
-            (Some(_), None) => return None,
+            (Some(_), None) => return Err(Refused::Unknown),
         };
         set(
             &mut nodes[kit.0 as usize],
@@ -87,7 +104,33 @@ fn place(nodes: &mut Vec<Node>, compound: &Compound, kits: &mut Vec<NodeId>) -> 
         );
         kit = held;
     }
-    Some(())
+    Ok(())
+}
+
+/// What a kit's part `name` holds; `None` if it has no such part.
+fn held(kit: &Node, name: &str) -> Option<Option<NodeId>> {
+    let spec = kit.class()?.spec();
+    let (_, field) = spec.field(name.as_bytes())?;
+    let is_part = matches!(spec.family, Family::Kit) && field.field_type == FieldType::SFNode;
+    is_part.then(|| kit.node_field(name))
+}
+
+/// Whether `part` can stand in `kit` without holding it.
+fn check_part(nodes: &[Node], part: NodeId, kit: NodeId, room: &mut usize) -> Result<(), Refused> {
+    let mut seen = FxHashSet::default();
+    let mut open = vec![part];
+    while let Some(id) = open.pop() {
+        if id == kit {
+            return Err(Refused::Cycle);
+        }
+        if seen.insert(id) {
+            let before = open.len();
+            open.extend(nodes[id.0 as usize].handles());
+            let cost = 1 + open.len() - before;
+            *room = room.checked_sub(cost).ok_or(Refused::Undecided)?;
+        }
+    }
+    Ok(())
 }
 
 fn bare(class: Class, pos: iv_parser::SourcePos) -> Node {
@@ -100,8 +143,9 @@ fn bare(class: Class, pos: iv_parser::SourcePos) -> Node {
     }
 }
 
-fn children(file: &mut File<'_, '_, '_, '_>, kit: NodeId) -> Vec<NodeId> {
-    let node = &file.builder.nodes[kit.0 as usize];
+/// The children of a kit: what its parts hold.
+pub(super) fn children(builder: &mut Builder<'_>, kit: NodeId) -> Vec<NodeId> {
+    let node = &builder.nodes[kit.0 as usize];
     let Some(class) = node.class() else {
         return Vec::new();
     };
@@ -117,7 +161,7 @@ fn children(file: &mut File<'_, '_, '_, '_>, kit: NodeId) -> Vec<NodeId> {
     // The only part that a kit has without being given it.
     if class == Class::ShapeKit && node.entry("shape").is_none() {
         let cube = bare(Class::Cube, node.pos);
-        children.push(file.builder.add(cube));
+        children.push(builder.add(cube));
     }
     children
 }

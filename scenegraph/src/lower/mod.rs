@@ -11,8 +11,10 @@ mod include;
 #[cfg(test)]
 mod kit_tests;
 mod kits;
+mod late;
 mod names;
 mod node;
+mod pictures;
 mod proto;
 mod schema;
 mod swept;
@@ -35,9 +37,11 @@ use crate::registry::Class;
 
 use expand::Expansion;
 use include::Includes;
+use late::Late;
 use names::{Names, Reference, Scope};
 use proto::Protos;
 
+pub(crate) use pictures::picture_name;
 pub use schema::RegistryLayout;
 pub(crate) use value::read_default;
 
@@ -64,17 +68,21 @@ pub fn load_with(
         includes: Includes::new(loader),
         protos: Protos::default(),
         expansion: Expansion::default(),
+        late: Late::default(),
         limits: *limits,
     };
     let root = builder.file(bytes, name.into(), folder, Class::Separator);
     builder.includes.know_root(name, folder, root);
     builder.complete();
+    builder.settle_late();
+    let pictures = builder.look_at_pictures();
     Graph {
         fonts: Vec::new(),
+        pictures,
         nodes: builder.nodes,
         root,
         files: builder.files,
-        diagnostics: builder.diagnostics,
+        diagnostics: iv_parser::collapsed(builder.diagnostics),
     }
 }
 
@@ -85,6 +93,7 @@ struct Builder<'l> {
     includes: Includes<'l>,
     protos: Protos,
     expansion: Expansion,
+    late: Late,
     limits: iv_parser::Limits,
 }
 
@@ -124,9 +133,6 @@ impl Builder<'_> {
                 owner: iv_parser::NodeId(0),
                 scope: None,
                 vrml2: header.dialect == Dialect::Vrml2,
-                compounds: Vec::new(),
-                links: Vec::new(),
-                inputs: connect::Inputs::default(),
                 routes: 0,
                 guesses: FxHashMap::default(),
                 dropped: 0,
@@ -251,11 +257,6 @@ struct File<'b, 't, 'a, 'l> {
     scope: Scope,
     /// The file is VRML 2.
     vrml2: bool,
-    /// Parts of parts of kits met so far.
-    compounds: Vec<kits::Compound>,
-    /// Connected fields without values met so far.
-    links: Vec<connect::Link>,
-    inputs: connect::Inputs,
     /// ROUTEs met so far.
     routes: usize,
     /// Hints for the unknown classes met so far.

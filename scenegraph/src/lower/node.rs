@@ -4,12 +4,12 @@ use iv_parser::{
     Atom, Child, FieldId, Form, Item, NodeId as TreeId, Severity, Span, Value, text_of,
 };
 
-use super::connect::{self, Link};
-use super::kits::{self, Compound};
+use super::connect::Link;
+use super::kits::Compound;
 use super::names::display_name;
 use super::upgrade::OldValue;
 use super::value::Reader;
-use super::{File, swept, upgrade};
+use super::{File, upgrade};
 use crate::graph::{FieldEntry, FieldValue, Kind, Node, NodeId};
 use crate::registry::{Class, ClassSpec, Family, FieldSpec, FieldType};
 
@@ -23,17 +23,12 @@ impl<'a> File<'_, '_, 'a, '_> {
         let count = self.tree.node_count();
         self.builder.nodes.reserve(count);
         let mut splits = Vec::new();
-        let mut swept = Vec::new();
-        let mut kits = Vec::new();
         for i in 0..count as u32 {
             let mut old = Vec::new();
             let node = self.node(TreeId(i), &mut old);
-            if node.class() == Some(Class::GeneralizedCylinder) {
-                swept.push(TreeId(i));
-            }
-            if node.class().is_some_and(|c| c.spec().family == Family::Kit) {
-                kits.push(NodeId(self.base + i));
-            }
+            let is_kit =
+                |c: Class| c == Class::GeneralizedCylinder || c.spec().family == Family::Kit;
+            self.builder.late.has_kits |= node.class().is_some_and(is_kit);
             self.builder.nodes.push(node);
             self.drop_surplus_problems();
             if !old.is_empty() {
@@ -42,11 +37,6 @@ impl<'a> File<'_, '_, 'a, '_> {
         }
         for (id, old) in splits {
             upgrade::split(self, id, &old);
-        }
-        connect::settle(self);
-        kits::settle(self, kits);
-        for id in swept {
-            swept::expand(self, id);
         }
     }
 
@@ -233,13 +223,12 @@ impl<'a> File<'_, '_, 'a, '_> {
             // A master that nobody has is said when it is looked up.
             let master = self.child(connection.master);
             match (&value, master) {
-                (None, Some(master)) => self.links.push(Link {
+                (None, Some(master)) => self.builder.late.add_link(Link {
                     slave: NodeId(self.base + self.owner.0),
                     field: index as u16,
                     ignored: field.ignored,
                     master,
                     output: text_of(&connection.output[..connection.output.len().min(80)]),
-                    span: field.span,
                 }),
                 (None, None) => {}
                 (Some(_), _) => self.problem(
@@ -325,6 +314,10 @@ impl<'a> File<'_, '_, 'a, '_> {
         let Some(field_type) = known else {
             return false;
         };
+        if let Value::Is(outer) = tree.field(id).value {
+            self.link_input(outer, text_of(name).into(), field_type, id);
+            return true;
+        }
         let field_spec = FieldSpec {
             name: "input",
             field_type,
@@ -332,8 +325,9 @@ impl<'a> File<'_, '_, 'a, '_> {
             words: &[],
         };
         if let Some(value) = self.value(spec, &field_spec, id) {
-            let key = (NodeId(self.base + self.owner.0), text_of(name).into());
-            self.inputs.insert(key, value);
+            let node = NodeId(self.base + self.owner.0);
+            let list = self.builder.late.inputs.entry(node).or_default();
+            list.push((text_of(name).into(), value));
         }
         true
     }
@@ -359,16 +353,16 @@ impl<'a> File<'_, '_, 'a, '_> {
         let field = tree.field(id);
         // Events of VRML have no values, and are in no list.
         if matches!(field.value, Value::Is(_)) {
+            self.input(spec, id, node);
             return;
         }
         if spec.family == Family::Kit && field.name.contains(&b'.') {
             let path = text_of(&field.name[..field.name.len().min(200)]);
             if let Some(&part) = self.handles(&field.value).iter().flatten().next() {
-                self.compounds.push(Compound {
+                self.builder.late.compounds.push(Compound {
                     kit: NodeId(self.base + self.owner.0),
                     path,
                     part,
-                    span: field.span,
                 });
             }
             return;

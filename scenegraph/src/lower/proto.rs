@@ -76,6 +76,8 @@ pub(super) struct Protos {
     top: FxHashMap<(u32, Option<Arc<str>>), usize>,
     /// Of nodes in templates.
     pub links: FxHashMap<NodeId, Vec<Link>>,
+    /// Of engines in templates: inputs that are in no class's list, and their slots.
+    pub input_links: FxHashMap<NodeId, Vec<(Arc<str>, u32)>>,
     /// Instances in templates.
     pub templates: FxHashMap<NodeId, Instance>,
     /// Instances still to be expanded.
@@ -234,6 +236,16 @@ impl<'a> File<'_, '_, 'a, '_> {
                 }
                 (_, Some(slot), Some(field_type)) => {
                     let value = self.slot_value(field_type, field);
+                    if value.is_none() && tree.field(field).connection.is_some() {
+                        let name = text_of(&name[..name.len().min(80)]);
+                        self.problem(
+                            Severity::Warning,
+                            "connection",
+                            format!("`{name}` of a prototype's instance is connected to a field"),
+                            "the field keeps its default; connect the nodes in the PROTO's body",
+                            tree.field(field).span,
+                        );
+                    }
                     instance
                         .values
                         .extend(value.map(|value| (slot as u32, value)));
@@ -312,6 +324,21 @@ impl<'a> File<'_, '_, 'a, '_> {
             let node = NodeId(self.base + self.owner.0);
             let links = &mut self.builder.protos.links;
             links.entry(node).or_default().push(link);
+        }
+    }
+
+    /// `input IS name` in an engine that names the type of its inputs.
+    pub(super) fn link_input(
+        &mut self,
+        name: (u32, u32),
+        input: Arc<str>,
+        of: FieldType,
+        id: FieldId,
+    ) {
+        if let Some(link) = self.link(name, 0, Some(of), id) {
+            let node = NodeId(self.base + self.owner.0);
+            let links = &mut self.builder.protos.input_links;
+            links.entry(node).or_default().push((input, link.slot));
         }
     }
 

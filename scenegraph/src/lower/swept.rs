@@ -6,9 +6,9 @@ use std::f64::consts::FRAC_PI_6;
 
 use geometry::generalized_cylinder::{Curves, rows};
 use glam::DVec3;
-use iv_parser::{NodeId as TreeId, Severity};
+use iv_parser::Severity;
 
-use super::File;
+use super::Builder;
 use super::upgrade::{set, set_word};
 use crate::graph::{FieldValue, Kind, Node, NodeId};
 use crate::registry::Class;
@@ -23,10 +23,9 @@ const BEFORE: [&str; 5] = [
 ];
 
 /// The surface of a node whose parts are all in the graph.
-pub(super) fn expand(file: &mut File<'_, '_, '_, '_>, id: TreeId) {
-    let handle = NodeId(file.base + id.0);
-    let kit = file.builder.nodes[handle.0 as usize].clone();
-    let nodes = &file.builder.nodes;
+pub(super) fn expand(builder: &mut Builder<'_>, handle: NodeId) {
+    let kit = builder.nodes[handle.0 as usize].clone();
+    let nodes = &builder.nodes;
     let part = |field: &str| kit.node_field(field);
     let mut children: Vec<NodeId> = BEFORE.into_iter().filter_map(part).collect();
     let after = part("childList").and_then(|list| {
@@ -52,28 +51,28 @@ pub(super) fn expand(file: &mut File<'_, '_, '_, '_>, id: TreeId) {
                 FieldValue::Ints(faces.into()),
             );
             let made = [hints, coordinates, set_of_faces];
-            children.extend(made.map(|node| file.builder.add(node)));
+            children.extend(made.map(|node| builder.add(node)));
         }
-        None => file.problem(
+        None => builder.late_problem(
             Severity::Warning,
             "no-surface",
             "the curves of a GeneralizedCylinder make no surface".to_owned(),
             "profile and cross section need two points at least, and all together at most ten \
              million points",
-            file.tree.node(id).span,
+            handle,
         ),
     }
     if flag(&kit, "withTextureCoords") {
-        file.problem(
+        builder.late_problem(
             Severity::Note,
             "not-supported",
             "texture coordinates of a GeneralizedCylinder are not those of the modeller".to_owned(),
             "they are made from its bounds",
-            file.tree.node(id).span,
+            handle,
         );
     }
     children.extend(after);
-    let node = &mut file.builder.nodes[handle.0 as usize];
+    let node = &mut builder.nodes[handle.0 as usize];
     node.kind = Kind::Known(Class::Separator);
     node.fields.clear();
     node.children = children;

@@ -85,7 +85,7 @@ ComposeMatrix: Engine, Full, [],
     scaleOrientation: MFRotation = "0 0 1 0";
     center: MFVec3f = "0 0 0";
 }
-DecomposeMatrix: Engine, Kept, [],
+DecomposeMatrix: Engine, Full, [],
     "The parts of a matrix; outputs translation, rotation, scaleFactor, scaleOrientation." {
     matrix: MFMatrix = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
     center: MFVec3f = "0 0 0";
@@ -95,8 +95,8 @@ TransformVec3f: Engine, Full, [],
     vector: MFVec3f = "0 0 0";
     matrix: MFMatrix = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
 }
-ComputeBoundingBox: Engine, Kept, [],
-    "The bounding box of a node or path; outputs min, max, boxCenter, objectCenter." {
+ComputeBoundingBox: Engine, Partial, [],
+    "The bounding box of a node, not of a path; outputs min, max, boxCenter, objectCenter." {
     node: SFNode = "NULL";
     path: SFPath = "NULL";
 }

@@ -130,11 +130,18 @@ impl Builder {
         LightList(self.light_lists.len() as u32)
     }
 
-    /// Adds a light that reaches everything around `center`, in the world, within `radius`.
-    pub fn light_for_all(&mut self, light: Light, center: DVec3, radius: f64) {
+    /// Adds a light that reaches everything around `center`, in the world, within `radius`, and
+    /// brings ambient light there.
+    pub fn light_for_all(
+        &mut self,
+        light: Light,
+        center: DVec3,
+        radius: f64,
+        ambient_srgb: [f64; 3],
+    ) {
         let id = LightId(self.scene.lights.len() as u32);
         self.scene.lights.push(light);
-        self.for_all.add_light(id, center, radius);
+        self.for_all.add_light(id, center, radius, ambient_srgb);
     }
 
     /// Adds a fog for the whole scene; the first one counts.

@@ -5,12 +5,15 @@ use geometry::bounds::Aabb;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use crate::scene::{Fog, Instance, LightId, LightSetId, Scene};
+use crate::scene::{Environment, EnvironmentId, Fog, Instance, LightId, LightSetId, Scene};
 
 use super::builder::MAX_LIGHT_SET_ENTRIES;
 
 /// Most tests of a light against an instance; beyond it every such light counts as near.
 const MAX_TESTS: usize = 20_000_000;
+
+/// Environments among which an equal one is looked for.
+const MAX_COMPARED: usize = 100;
 
 /// A light that reaches everything within a ball.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +21,7 @@ struct Reach {
     light: LightId,
     center: DVec3,
     radius: f64,
+    ambient_srgb: [f64; 3],
 }
 
 #[derive(Debug, Default)]
@@ -27,11 +31,18 @@ pub(super) struct ForAll {
 }
 
 impl ForAll {
-    pub fn add_light(&mut self, light: LightId, center: DVec3, radius: f64) {
+    pub fn add_light(
+        &mut self,
+        light: LightId,
+        center: DVec3,
+        radius: f64,
+        ambient_srgb: [f64; 3],
+    ) {
         self.lights.push(Reach {
             light,
             center,
             radius,
+            ambient_srgb,
         });
     }
 
@@ -48,7 +59,50 @@ impl ForAll {
                 environment.fog.get_or_insert(fog);
             }
         }
-        self.lights.is_empty() || self.add_to_sets(scene)
+        let is_exact = self.lights.is_empty() || self.add_to_sets(scene);
+        self.add_ambient(scene);
+        is_exact
+    }
+
+    /// Adds the ambient light of all lights that reach an instance to that around it.
+    fn add_ambient(&self, scene: &mut Scene) {
+        let brings = |reach: &&Reach| reach.ambient_srgb != [0.0; 3];
+        let ambient_of: FxHashMap<LightId, [f64; 3]> = (self.lights.iter().filter(brings))
+            .map(|reach| (reach.light, reach.ambient_srgb))
+            .collect();
+        if ambient_of.is_empty() {
+            return;
+        }
+        let mut known: FxHashMap<(EnvironmentId, LightSetId), EnvironmentId> = FxHashMap::default();
+        for instance in &mut scene.instances {
+            let key = (instance.environment, instance.light_set);
+            instance.environment = *known.entry(key).or_insert_with(|| {
+                let lights = &scene.light_sets[key.1.index()];
+                let before = &scene.environments[key.0.index()];
+                let mut sum = before
+                    .ambient_color_srgb
+                    .map(|v| v * before.ambient_intensity);
+                for ambient in lights.iter().filter_map(|light| ambient_of.get(light)) {
+                    sum = [0, 1, 2].map(|i| sum[i] + ambient[i]);
+                }
+                let lit = Environment {
+                    ambient_intensity: 1.0,
+                    ambient_color_srgb: sum.map(|v| v.min(1.0)),
+                    ..before.clone()
+                };
+                let is_same = |e: &Environment| *e == lit;
+                let found = scene
+                    .environments
+                    .iter()
+                    .take(MAX_COMPARED)
+                    .position(is_same);
+                let index = found.unwrap_or_else(|| {
+                    scene.environments.push(lit);
+                    scene.environments.len() - 1
+                });
+                EnvironmentId(index as u32)
+            });
+        }
     }
 
     fn add_to_sets(&self, scene: &mut Scene) -> bool {

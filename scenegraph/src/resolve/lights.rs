@@ -54,6 +54,7 @@ impl Walk<'_> {
             color_srgb: node.triple("color"),
             intensity: node.number("intensity"),
             beam,
+            radius_in_world: None,
             environment: self.state.environment_id,
         };
         self.state.lights = self.builder.light(light, self.state.lights);

@@ -10,6 +10,7 @@ mod for_all;
 mod hints;
 mod labels;
 mod lights;
+mod limits;
 mod profiles;
 mod properties;
 mod shapes;
@@ -28,6 +29,7 @@ use crate::remarks::Remarks;
 use crate::scene::Scene;
 use crate::shape::Measure;
 
+pub use limits::ResolveLimits;
 pub(crate) use state::{Binding, ColorSource, Ordering, ProfileList, State, Style, TexCoords};
 
 /// How much of the geometry is made.
@@ -35,32 +37,8 @@ pub(crate) use state::{Binding, ColorSource, Ordering, ProfileList, State, Style
 pub enum Geometry {
     /// Meshes.
     Build,
-    /// Counts and bounds only: [`Resolved::measures`].
+    /// Counts and bounds only: [`Resolved::measures`]. Each mesh is made and measured, none kept.
     Measure,
-}
-
-/// Named limits: a small file can ask for any number of copies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ResolveLimits {
-    /// Nodes visited, every occurrence counted; a few seconds of work.
-    pub steps: usize,
-    /// Nesting, sharing included.
-    pub depth: usize,
-    /// Nodes, instances, lights and cameras in the scene together.
-    pub items: usize,
-    /// Bytes of geometry made.
-    pub geometry_bytes: usize,
-}
-
-impl Default for ResolveLimits {
-    fn default() -> Self {
-        Self {
-            steps: 20_000_000,
-            depth: 1000,
-            items: 2_000_000,
-            geometry_bytes: usize::try_from(16_u64 << 30).unwrap_or(usize::MAX),
-        }
-    }
 }
 
 /// What to resolve and how.

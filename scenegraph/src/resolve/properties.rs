@@ -1,5 +1,6 @@
 //! Property nodes: those that only write into the state.
 
+use geometry::transform::normal_matrix;
 use glam::{DMat3, DVec2, DVec3};
 use iv_parser::Dialect;
 
@@ -130,6 +131,7 @@ impl Walk<'_> {
                     );
                 }
             }
+            Class::ClipPlane => self.clip_plane(node),
             Class::Environment => self.environment(node),
             Class::Font | Class::FontStyle => {
                 if !node.is_ignored("name") {
@@ -142,6 +144,30 @@ impl Walk<'_> {
             _ => return false,
         }
         true
+    }
+
+    /// Says that a plane cuts nothing off, and where it would.
+    fn clip_plane(&mut self, node: &Node) {
+        if !node.flag("on") {
+            return;
+        }
+        let &[x, y, z, distance] = node.numbers("plane") else {
+            return;
+        };
+        let world = self.world();
+        let normal = DVec3::new(x, y, z).normalize_or_zero();
+        let [a, b, c] = normal_matrix(&world)
+            .mul_vec3(normal)
+            .normalize_or_zero()
+            .to_array();
+        let [px, py, pz] = world.transform_point3(distance * normal).to_array();
+        let message = format!(
+            "a ClipPlane cuts nothing off: the plane through ({px:.6}, {py:.6}, {pz:.6}) that keeps \
+             what lies towards ({a:.6}, {b:.6}, {c:.6})"
+        );
+        let hint = "glTF has no such planes; what it hides in Inventor is shown";
+        let pos = node.pos;
+        self.remarks.warn("clip-plane", &message, hint, pos);
     }
 
     fn environment(&mut self, node: &Node) {

@@ -7,11 +7,11 @@ use geometry::transform::largest_stretch;
 use crate::graph::{FieldValue, NodeId};
 use crate::registry::Class;
 use crate::scene::{
-    Faces, Instance, LightModel, LightSetId, Material, Texture, TextureId, TextureModel,
+    Faces, Instance, LightModel, LightSetId, Material, Mesh, Texture, TextureId, TextureModel,
     TextureSource, Wrap,
 };
 use crate::shape::{
-    Attributes, Job, Made, MadeFaces, ShapeMaker, has_profiles, is_closed, is_nurbs,
+    Attributes, Job, Made, MadeFaces, Measure, ShapeMaker, has_profiles, is_closed, is_nurbs,
     is_screen_text, is_text,
 };
 
@@ -80,18 +80,17 @@ impl Walk<'_> {
         };
         let attributes = Attributes::of(&job);
         let builder = &mut self.builder;
-        let made = match self.options.geometry {
-            Geometry::Build => {
-                let limit = self.options.limits.geometry_bytes;
-                self.shapes
-                    .mesh(&job, &attributes, &mut self.remarks, limit, |mesh| {
-                        builder.mesh(mesh)
-                    })
-            }
-            Geometry::Measure => self
-                .shapes
-                .measure(&job, &attributes, |measure| builder.measure(measure)),
+        let geometry = self.options.geometry;
+        let keep = |mesh: Mesh| match geometry {
+            Geometry::Build => builder.mesh(mesh),
+            Geometry::Measure => builder.measure(Measure::of(&mesh)),
         };
+        let made = self.shapes.mesh(&job, &attributes, &mut self.remarks, keep);
+        if self.shapes.made_bytes() > self.limits.geometry_bytes {
+            let limit = self.limits.geometry_bytes >> 20;
+            let what = format!("its geometry takes more than {limit} MiB");
+            self.stop("too-much-geometry", &what, graph.node(id).pos);
+        }
         if let Some(made) = made {
             let mut placement = self.place(placed);
             if placement.name.is_none() {

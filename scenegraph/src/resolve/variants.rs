@@ -271,7 +271,7 @@ impl Walk<'_> {
                 continue;
             }
             // A material that nothing has must not be made.
-            if self.builder.items() + self.variants.entries >= self.options.limits.items {
+            if self.builder.items() + self.variants.entries >= self.limits.items {
                 break;
             }
             let material = self.material(&forked, &forked_attributes, made);

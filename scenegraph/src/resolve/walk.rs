@@ -5,10 +5,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
-use iv_parser::{Dialect, Severity};
+use iv_parser::{Dialect, Severity, SourcePos};
 use rustc_hash::FxHashMap;
 
-use crate::graph::{FieldValue, Graph, Kind, Node, NodeId};
+use crate::graph::{Graph, Kind, Node, NodeId};
 use crate::registry::{Class, Family, Support};
 use crate::remarks::Remarks;
 use crate::scene::{self, Placement, Scene, Shown};
@@ -19,7 +19,7 @@ use super::builder::Builder;
 use super::profiles::Profiles;
 use super::state::State;
 use super::variants::Variants;
-use super::{ResolveOptions, not_supported, transforms};
+use super::{ResolveLimits, ResolveOptions, not_supported, transforms};
 
 /// What a group restores when it ends.
 pub(super) enum Keep {
@@ -98,6 +98,8 @@ pub(super) struct Frame {
 pub(super) struct Walk<'g> {
     pub graph: &'g Graph,
     pub options: &'g ResolveOptions,
+    /// Those of this model.
+    pub limits: ResolveLimits,
     pub state: State,
     pub builder: Builder,
     pub remarks: Remarks,
@@ -133,6 +135,7 @@ impl<'g> Walk<'g> {
         Self {
             graph,
             options,
+            limits: options.limits.of(graph),
             state,
             builder,
             remarks: Remarks::default(),
@@ -182,20 +185,9 @@ impl<'g> Walk<'g> {
 
     fn visit(&mut self, id: NodeId) {
         self.steps += 1;
-        if self.steps > self.options.limits.steps {
-            let pos = self.graph.node(id).pos;
-            self.remarks.add(
-                Severity::Error,
-                "too-many-nodes",
-                "the model has more occurrences of nodes than can be resolved",
-                "the rest was left out",
-                pos,
-            );
-            self.stack.iter_mut().for_each(|open| {
-                open.next = open.end;
-                open.copies = None;
-            });
-            return;
+        if self.steps > self.limits.steps {
+            let what = format!("its nodes occur more than {} times", self.limits.steps);
+            return self.stop("too-many-nodes", &what, self.graph.node(id).pos);
         }
         let graph = self.graph;
         let node = graph.node(id);
@@ -248,6 +240,17 @@ impl<'g> Walk<'g> {
         };
         if !done && spec.support != Support::Kept {
             not_supported(&mut self.remarks, spec.name, node.pos);
+        }
+    }
+
+    /// Ends the walk, because the model is larger than it may be.
+    pub(super) fn stop(&mut self, code: &'static str, what: &str, pos: SourcePos) {
+        let message = format!("the model becomes too large: {what}");
+        let hint = "what comes behind was left out; the limit grows with what is written";
+        self.remarks.add(Severity::Error, code, &message, hint, pos);
+        for open in &mut self.stack {
+            open.next = open.end;
+            open.copies = None;
         }
     }
 
@@ -397,12 +400,12 @@ impl<'g> Walk<'g> {
             shown,
             choice,
         } = opening;
-        if self.stack.len() >= self.options.limits.depth {
+        if self.stack.len() >= self.limits.depth {
             let pos = self.graph.node(node).pos;
             self.remarks.add(
                 Severity::Error,
                 "too-deep",
-                "groups are nested too deeply",
+                &format!("groups are nested more than {} deep", self.limits.depth),
                 "the contents of the innermost were left out",
                 pos,
             );
@@ -558,14 +561,10 @@ impl<'g> Walk<'g> {
             );
             return false;
         }
-        if self.builder.items() >= self.options.limits.items {
-            self.remarks.add(
-                Severity::Error,
-                "too-many-items",
-                "the model has more parts than can be resolved",
-                "the rest was left out",
-                node.pos,
-            );
+        if self.builder.items() >= self.limits.items {
+            let limit = self.limits.items;
+            let what = format!("more than {limit} shapes, groups, lights and cameras");
+            self.stop("too-many-items", &what, node.pos);
             return false;
         }
         true
@@ -591,7 +590,7 @@ impl<'g> Walk<'g> {
         let around = frame.parent_base.checked_sub(1).map(|i| &self.frames[i]);
         if matches!(frame.shown, Shown::Level(_))
             && around.is_some_and(|around| around.scene_node.is_some())
-            && self.builder.items() < self.options.limits.items
+            && self.builder.items() < self.limits.items
         {
             self.scene_node(self.frames.len());
         }
@@ -633,13 +632,7 @@ impl<'g> Walk<'g> {
 fn several_parents(graph: &Graph) -> Vec<bool> {
     let mut has_one = vec![false; graph.nodes().len()];
     let mut has_more = has_one.clone();
-    let handles = graph.nodes().iter().flat_map(|node| {
-        let in_fields = node.fields.iter().flat_map(|f| match &f.value {
-            FieldValue::Nodes(nodes) => &nodes[..],
-            _ => &[],
-        });
-        node.children.iter().chain(in_fields)
-    });
+    let handles = graph.nodes().iter().flat_map(Node::handles);
     for child in handles {
         let index = child.0 as usize;
         has_more[index] |= std::mem::replace(&mut has_one[index], true);

@@ -44,6 +44,9 @@ pub struct Light {
     pub intensity: f64,
     /// How a spot light's cone fades, in place of its drop-off.
     pub beam: Option<Beam>,
+    /// How far a point or spot light reaches, in the world; `None` for any distance. The light sets
+    /// of instances tell what is in reach.
+    pub radius_in_world: Option<f64>,
     /// The environment at the light: its attenuation is this light's.
     pub environment: EnvironmentId,
 }

@@ -8,6 +8,7 @@ use geometry::local_origin::local_origin;
 use geometry::triangulate::{Outcome, Triangulator};
 use geometry::weld::Welder;
 use glam::{DVec3, Vec3};
+use iv_parser::Severity;
 
 use crate::remarks::Remarks;
 use crate::resolve::Ordering;
@@ -39,6 +40,8 @@ pub struct Assembler {
     positions: Vec<[f32; 3]>,
     loop_points: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
+    /// Triangles of polygons that have no area.
+    without_area: usize,
     triangulator: Triangulator,
     normal_maker: NormalMaker,
 }
@@ -54,6 +57,7 @@ impl Assembler {
         job: &Job<'_>,
         remarks: &mut Remarks,
     ) -> Option<Mesh> {
+        self.without_area = 0;
         // Scratch is taken out while it is borrowed, and put back.
         let mut used = std::mem::take(&mut self.used);
         let mut made = std::mem::take(&mut self.made_normals);
@@ -149,7 +153,18 @@ impl Assembler {
         self.used = used;
         self.made_normals = made;
         if topology == Topology::Triangles {
-            drop_collapsed(&mut mesh);
+            let dropped = drop_collapsed(&mut mesh) + self.without_area;
+            // Of a shape that is given by rule the ends may meet in a point.
+            if dropped > 0 && job.made.is_none() {
+                remarks.count(
+                    Severity::Note,
+                    "degenerate",
+                    "triangles without an area are left out",
+                    "they show nothing",
+                    attributes.pos,
+                    dropped,
+                );
+            }
             let by_normals = given && attributes.ordering == Ordering::Unknown;
             if clockwise || by_normals {
                 turn(&mut mesh, clockwise);
@@ -210,6 +225,7 @@ impl Assembler {
                 self.triangles.extend(fan);
                 continue;
             }
+            let range_len = range.len();
             let at = |n: u32| self.points[n as usize];
             let numbers = &corners.coordinates[range];
             let begin = self.triangles.len();
@@ -227,7 +243,8 @@ impl Assembler {
                 *triangle = triangle.map(|i| i + first);
             }
             match outcome {
-                Outcome::Triangulated | Outcome::Degenerate => {}
+                Outcome::Triangulated => {}
+                Outcome::Degenerate => self.without_area += range_len - 2,
                 Outcome::SelfIntersecting => remarks.warn(
                     "crossing-polygon",
                     "a polygon crosses itself",
@@ -355,18 +372,21 @@ fn enough(
     enough
 }
 
-/// Drops triangles with two corners in the same place.
-pub(super) fn drop_collapsed(mesh: &mut Mesh) {
+/// Drops triangles with two corners in the same place; returns how many.
+pub(super) fn drop_collapsed(mesh: &mut Mesh) -> usize {
     let collapsed = |t: &[u32; 3], positions: &[[f32; 3]]| {
         let [a, b, c] = t.map(|v| positions[v as usize]);
         t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || a == b || b == c || c == a
     };
     let (triangles, _) = mesh.indices.as_chunks::<3>();
-    if triangles.iter().any(|t| collapsed(t, &mesh.positions)) {
-        let kept = triangles.iter().filter(|t| !collapsed(t, &mesh.positions));
-        mesh.indices = kept.flatten().copied().collect();
-        drop_unused(mesh);
+    if !triangles.iter().any(|t| collapsed(t, &mesh.positions)) {
+        return 0;
     }
+    let before = triangles.len();
+    let kept = triangles.iter().filter(|t| !collapsed(t, &mesh.positions));
+    mesh.indices = kept.flatten().copied().collect();
+    drop_unused(mesh);
+    before - mesh.indices.len() / 3
 }
 
 /// Drops vertices that no triangle uses, so that the mesh's box is that of what is drawn.

@@ -67,6 +67,10 @@ pub(crate) fn has_profiles(class: Class) -> bool {
     nurbs::is_trimmed(class) || class == Class::Text3
 }
 
+/// What a mesh takes: each index, and each vertex with all it may have.
+const BYTES_EACH_INDEX: usize = 4;
+const BYTES_EACH_VERTEX: usize = 48;
+
 /// A mesh that was made, and what its material must know.
 #[derive(Clone, Copy, Debug)]
 pub struct Made {
@@ -163,59 +167,34 @@ impl ShapeMaker {
         key == others
     }
 
-    /// The mesh of a shape, made by `keep` when it is new; `None` if it draws nothing.
+    /// The mesh of a shape, kept by `keep` when it is new; `None` if it draws nothing.
     pub fn mesh(
         &mut self,
         job: &Job<'_>,
         attributes: &Attributes<'_>,
         remarks: &mut Remarks,
-        byte_limit: usize,
         keep: impl FnOnce(Mesh) -> MeshId,
     ) -> Option<Made> {
         let key = job.shared.then(|| Self::key(job, attributes));
         if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
             return *known;
         }
-        let made = if self.bytes > byte_limit {
-            remarks.warn(
-                "too-much-geometry",
-                "the model makes more geometry than is allowed",
-                "the rest was left out",
-                attributes.pos,
-            );
-            None
-        } else {
-            self.make(job, attributes, remarks).map(|mesh| {
-                self.bytes += 4 * mesh.indices.len() + 48 * mesh.positions.len();
-                Made {
-                    lit: !mesh.normals.is_empty(),
-                    textured: !mesh.texcoords.is_empty(),
-                    mesh: keep(mesh),
-                }
-            })
-        };
+        let made = self.make(job, attributes, remarks).map(|mesh| {
+            self.bytes +=
+                BYTES_EACH_INDEX * mesh.indices.len() + BYTES_EACH_VERTEX * mesh.positions.len();
+            Made {
+                lit: !mesh.normals.is_empty(),
+                textured: !mesh.texcoords.is_empty(),
+                mesh: keep(mesh),
+            }
+        });
         self.cache.extend(key.map(|key| (key, made)));
         made
     }
 
-    /// As [`Self::mesh`], without making it.
-    pub fn measure(
-        &mut self,
-        job: &Job<'_>,
-        attributes: &Attributes<'_>,
-        keep: impl FnOnce(Measure) -> MeshId,
-    ) -> Option<Made> {
-        let key = job.shared.then(|| Self::key(job, attributes));
-        if let Some(known) = key.as_ref().and_then(|key| self.cache.get(key)) {
-            return *known;
-        }
-        let made = measure::measure(job, attributes, &mut self.glyphs).map(|measure| Made {
-            lit: measure.topology == Topology::Triangles,
-            textured: job.state.texture.is_some(),
-            mesh: keep(measure),
-        });
-        self.cache.extend(key.map(|key| (key, made)));
-        made
+    /// Bytes of all meshes that were made.
+    pub fn made_bytes(&self) -> usize {
+        self.bytes
     }
 
     fn make(

@@ -173,7 +173,7 @@ fn half_size(attributes: &Attributes<'_>) -> DVec3 {
 }
 
 /// The box around a primitive, without making it.
-pub fn bounds(class: Class, attributes: &Attributes<'_>) -> Option<Aabb> {
+fn bounds(class: Class, attributes: &Attributes<'_>) -> Option<Aabb> {
     let node = attributes.node;
     let half = match class {
         Class::Cube => half_size(attributes),
@@ -193,24 +193,6 @@ pub fn bounds(class: Class, attributes: &Attributes<'_>) -> Option<Aabb> {
         min: -half,
         max: half,
     })
-}
-
-/// Number of triangles of a primitive, without making it.
-pub fn triangle_count(class: Class, attributes: &Attributes<'_>, complexity: f64) -> usize {
-    let n = slices(complexity) as usize;
-    let part = |name: &str, triangles: usize| {
-        if draws(attributes, name) {
-            triangles
-        } else {
-            0
-        }
-    };
-    match class {
-        Class::Cube => 12,
-        Class::Sphere => 2 * n * (n / 2 - 1),
-        Class::Cone => part("SIDES", n) + part("BOTTOM", n - 2),
-        _ => part("SIDES", 2 * n) + part("TOP", n - 2) + part("BOTTOM", n - 2),
-    }
 }
 
 /// Whether a primitive is drawn whole, and so encloses a volume.

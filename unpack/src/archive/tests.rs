@@ -94,6 +94,33 @@ fn entries_that_lead_out_are_refused() {
 }
 
 #[test]
+fn of_entries_of_one_name_the_last_is_taken() {
+    let options = stored(CompressionMethod::Stored);
+    // The writer would not take a name twice: they are put in place of others as long.
+    for (name, is_repeated) in [(b"ab.iv", true), (b"a\\b.i", false), (b"x/b.i", false)] {
+        let mut bytes = archive(&[("11.iv", b"A", options), ("22.iv", b"B", options)]);
+        for at in 0..bytes.len() - 5 {
+            if matches!(&bytes[at..at + 5], b"11.iv" | b"22.iv")
+                && (is_repeated || bytes[at] == b'1')
+            {
+                bytes[at..at + 5].copy_from_slice(name);
+            }
+        }
+        let archive = open(bytes, None);
+        assert_eq!(archive.has_repeated_names, is_repeated);
+        assert_eq!(archive.entries.len(), if is_repeated { 1 } else { 2 });
+        let last = archive.entries.last().unwrap();
+        assert_eq!(archive.read(last).unwrap(), b"B");
+    }
+    // The same name in two ways of writing it.
+    let bytes = archive(&[("./a.iv", b"A", options), ("a.iv", b"B", options)]);
+    let archive = open(bytes, None);
+    assert!(archive.has_repeated_names);
+    let read: Vec<_> = archive.entries.iter().map(|e| archive.read(e)).collect();
+    assert_eq!(read, [Ok(b"B".to_vec())]);
+}
+
+#[test]
 fn too_much_is_refused() {
     let options = stored(CompressionMethod::Deflated);
     let zeros = vec![0; 80 << 20];

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Condvar, Mutex};
+use std::sync::{Arc, OnceLock};
 use std::thread;
 use std::time::Instant;
 
@@ -21,7 +21,7 @@ use crate::model::{Model, Times};
 
 /// A device that is being made, or was.
 #[derive(Clone, Default)]
-pub struct Device(Arc<(Mutex<Option<Result<Gpu, String>>>, Condvar)>);
+pub struct Device(Arc<OnceLock<Result<Gpu, String>>>);
 
 impl Device {
     /// Makes one in the background.
@@ -29,11 +29,8 @@ impl Device {
         let device = Self::default();
         let made = device.clone();
         thread::spawn(move || {
-            let gpu = Gpu::new(choice).map_err(|error| error.to_string());
-            if let Ok(mut slot) = made.0.0.lock() {
-                *slot = Some(gpu);
-            }
-            made.0.1.notify_all();
+            made.0
+                .get_or_init(|| Gpu::new(choice).map_err(|error| error.to_string()));
         });
         device
     }
@@ -44,14 +41,7 @@ impl Device {
     ///
     /// Why there is none, in words.
     pub fn wait(&self) -> Result<Gpu, String> {
-        let gone = || "the thread that makes the graphics device is gone".to_owned();
-        let mut slot = self.0.0.lock().map_err(|_| gone())?;
-        loop {
-            if let Some(result) = slot.as_ref() {
-                return result.clone();
-            }
-            slot = self.0.1.wait(slot).map_err(|_| gone())?;
-        }
+        self.0.wait().clone()
     }
 }
 

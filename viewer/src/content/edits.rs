@@ -96,7 +96,12 @@ mod tests {
     #[test]
     fn edits_change_what_is_shown_and_can_be_taken_back() {
         let text = std::fs::read(samples::data_dir().join("pavilion.iv")).unwrap();
-        let graph = scenegraph::load(&text, "pavilion.iv", &scenegraph::FileLoader::default());
+        let graph = scenegraph::load(
+            &text,
+            "pavilion.iv",
+            &samples::data_dir(),
+            &scenegraph::FileLoader::default(),
+        );
         let scene = scenegraph::resolve(&graph, &scenegraph::ResolveOptions::default()).scene;
         let content = Content::new(&scene, &Images::none());
         let mut edited = content.clone();

@@ -36,7 +36,7 @@ pub struct Content {
     pub classes: BTreeMap<String, usize>,
     /// Meshes; each use of one is an instance.
     pub meshes: Amount,
-    /// Triangles, before any are found to be degenerate.
+    /// Triangles, without degenerate ones.
     pub triangles: Amount,
     /// Line segments.
     pub lines: Amount,

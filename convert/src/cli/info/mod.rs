@@ -1,4 +1,5 @@
-//! `--info`: what is in a model. Nothing is tessellated and no image is opened.
+//! `--info`: what is in a model. Each mesh is made to count it, none is kept, and no image is
+//! opened.
 
 pub mod json;
 mod measure;

@@ -60,6 +60,7 @@ pub fn output(engine: &Node, name: &str, input: &Input<'_>) -> Option<FieldValue
             ];
             each(&parts, |v| matrix(v).to_cols_array().to_vec())
         }),
+        Class::DecomposeMatrix => super::decompose::output(engine, name),
         Class::TransformVec3f => transformed(engine, name),
         Class::InterpolateFloat => is("output").map(|()| interpolated(engine, 1)),
         Class::InterpolateVec2f => is("output").map(|()| interpolated(engine, 2)),
@@ -97,7 +98,7 @@ pub fn output(engine: &Node, name: &str, input: &Input<'_>) -> Option<FieldValue
 }
 
 /// Calls `make` with one tuple of each list at a time.
-fn each(lists: &[(&[f64], usize)], make: impl Fn(&[&[f64]]) -> Vec<f64>) -> FieldValue {
+pub(super) fn each(lists: &[(&[f64], usize)], make: impl Fn(&[&[f64]]) -> Vec<f64>) -> FieldValue {
     let lengths = lists.iter().map(|(list, size)| list.len() / size);
     let count = lengths.clone().max().unwrap_or(0).min(MAX_LENGTH);
     if lengths.min().unwrap_or(0) == 0 {
@@ -131,7 +132,7 @@ fn rotation(v: &[f64]) -> DQuat {
     axis.map_or(DQuat::IDENTITY, |axis| DQuat::from_axis_angle(axis, v[3]))
 }
 
-fn axis_angle(q: DQuat) -> Vec<f64> {
+pub(super) fn axis_angle(q: DQuat) -> Vec<f64> {
     let (axis, angle_rad) = q.to_axis_angle();
     vec![axis.x, axis.y, axis.z, angle_rad]
 }

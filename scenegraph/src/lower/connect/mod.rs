@@ -5,28 +5,33 @@
 //! Masters are fields of nodes, and outputs of engines that do not wait for time or events. Chains
 //! are followed from their ends; in a circle one field keeps its default.
 
+mod boxes;
 mod calculator;
 mod convert;
+mod decompose;
 mod engine;
 #[cfg(test)]
 mod tests;
 
 use std::sync::Arc;
 
-use iv_parser::{Severity, Span};
+use iv_parser::Severity;
 use rustc_hash::FxHashMap;
 
-use super::File;
+use super::Builder;
 use crate::graph::{FieldEntry, FieldValue, Node, NodeId};
 use crate::registry::{Class, Family};
 
-/// Numbers that all connected fields of a file get: a small file can ask for any number of copies.
+use boxes::Boxes;
+
+/// Numbers that all connected fields of a model get: a small file can ask for any number of copies.
 const MAX_NUMBERS: usize = 10_000_000;
 
-/// Work that the Calculators of a file may make, as `calculator::work` tells it: some seconds.
+/// Work that the Calculators of a model may make, as `calculator::work` tells it: some seconds.
 const MAX_CALCULATED: usize = 20_000_000;
 
 /// A field that is connected and has no value.
+#[derive(Clone)]
 pub(super) struct Link {
     pub slave: NodeId,
     /// Position in the class's list.
@@ -34,12 +39,11 @@ pub(super) struct Link {
     pub ignored: bool,
     pub master: NodeId,
     pub output: String,
-    pub span: Span,
 }
 
 /// Fields that stand in no class's list: the inputs of Gate, SelectOne and Concatenate, of the
-/// type that the node names.
-pub(super) type Inputs = FxHashMap<(NodeId, Arc<str>), FieldValue>;
+/// type that the node names. The last one of a name counts.
+pub(super) type Inputs = FxHashMap<NodeId, Vec<(Arc<str>, FieldValue)>>;
 
 /// How far a link is.
 #[derive(Clone, Copy, PartialEq)]
@@ -49,18 +53,18 @@ enum Progress {
     Done,
 }
 
-/// Gives connected fields their values; all nodes of the file are in the graph.
-pub(super) fn settle(file: &mut File<'_, '_, '_, '_>) {
+/// Gives connected fields their values; all nodes are in the graph.
+pub(super) fn settle(builder: &mut Builder<'_>, mut links: Vec<Link>, inputs: Inputs) {
     // The last one written wins, as with values.
     let mut last: FxHashMap<(NodeId, u16), usize> = FxHashMap::default();
-    let mut links = std::mem::take(&mut file.links);
     for (i, link) in links.iter().enumerate() {
         last.insert((link.slave, link.field), i);
     }
     let mut number = 0..;
     links.retain(|link| number.next() == last.get(&(link.slave, link.field)).copied());
     let mut masters = Masters {
-        inputs: std::mem::take(&mut file.inputs),
+        inputs,
+        boxes: Boxes::default(),
         known: FxHashMap::default(),
         room: MAX_NUMBERS,
         work: MAX_CALCULATED,
@@ -78,14 +82,17 @@ pub(super) fn settle(file: &mut File<'_, '_, '_, '_>) {
             match progress[at] {
                 Progress::New => {
                     progress[at] = Progress::Open;
-                    let before =
-                        needed(&file.builder.nodes, link, &links, of_node.get(&link.master));
+                    let nodes = &builder.nodes;
+                    let before = needed(nodes, link, &links, of_node.get(&link.master));
                     stack.extend(before.filter(|&i| progress[i] == Progress::New));
+                    let boxed = masters.boxes.newly_inside(nodes, link.master);
+                    let inside = boxed.iter().filter_map(|id| of_node.get(id)).flatten();
+                    stack.extend(inside.copied().filter(|&i| progress[i] == Progress::New));
                 }
                 Progress::Open => {
                     progress[at] = Progress::Done;
                     stack.pop();
-                    give(file, link, &mut masters);
+                    give(builder, link, &mut masters);
                 }
                 Progress::Done => {
                     stack.pop();
@@ -114,6 +121,7 @@ fn needed<'l>(
 /// What masters have, as far as it was asked for.
 struct Masters {
     inputs: Inputs,
+    boxes: Boxes,
     /// Outputs of engines.
     known: FxHashMap<(NodeId, String), Option<FieldValue>>,
     /// Numbers that may still be given.
@@ -122,16 +130,15 @@ struct Masters {
     work: usize,
 }
 
-fn give(file: &mut File<'_, '_, '_, '_>, link: &Link, masters: &mut Masters) {
-    let nodes = &file.builder.nodes;
-    let slave = &nodes[link.slave.0 as usize];
+fn give(builder: &mut Builder<'_>, link: &Link, masters: &mut Masters) {
+    let slave = &builder.nodes[link.slave.0 as usize];
     let Some((class, spec)) = slave
         .class()
         .and_then(|c| Some((c, c.spec().fields.get(usize::from(link.field))?)))
     else {
         return;
     };
-    let found = masters.output(nodes, link);
+    let found = masters.output(builder, link);
     let value = found.and_then(|value| convert::to_type(&value, spec.field_type));
     let value = value.or_else(|| link.ignored.then(|| super::read_default(spec)));
     let Some(value) = value else {
@@ -141,10 +148,10 @@ fn give(file: &mut File<'_, '_, '_, '_>, link: &Link, masters: &mut Masters) {
             spec.name
         );
         let hint = "that gives no value that can be known beforehand; the field keeps its default";
-        file.problem(Severity::Warning, "connection", message, hint, link.span);
+        builder.late_problem(Severity::Warning, "connection", message, hint, link.slave);
         return;
     };
-    file.builder.nodes[link.slave.0 as usize]
+    builder.nodes[link.slave.0 as usize]
         .fields
         .push(FieldEntry {
             index: link.field,
@@ -154,16 +161,22 @@ fn give(file: &mut File<'_, '_, '_, '_>, link: &Link, masters: &mut Masters) {
 }
 
 impl Masters {
-    fn output(&mut self, nodes: &[Node], link: &Link) -> Option<FieldValue> {
-        let master = &nodes[link.master.0 as usize];
+    fn output(&mut self, builder: &mut Builder<'_>, link: &Link) -> Option<FieldValue> {
+        let master = &builder.nodes[link.master.0 as usize];
         let spec = master.class()?.spec();
-        let value = if spec.family == Family::Engine {
+        let value = if spec.class == Class::ComputeBoundingBox {
+            self.boxes.output(builder, link)?
+        } else if spec.family == Family::Engine {
             let inputs = &self.inputs;
             let key = (link.master, link.output.clone());
             if master.class() == Some(Class::Calculator) && !self.known.contains_key(&key) {
                 self.work = self.work.checked_sub(calculator::work(master))?;
             }
-            let input = |name: &str| inputs.get(&(link.master, name.into())).cloned();
+            let input = |name: &str| {
+                let mut all = inputs.get(&link.master)?.iter().rev();
+                all.find(|(own, _)| **own == *name)
+                    .map(|(_, value)| value.clone())
+            };
             let made = || engine::output(master, &link.output, &input);
             self.known.entry(key).or_insert_with(made).clone()?
         } else {

@@ -81,6 +81,52 @@ fn engines_give_their_values() {
             [2.0, 0.0, 0.0],
         ),
         (
+            "DecomposeMatrix { matrix 0 2 0 0 -3 0 0 0 0 0 4 0 5 6 7 1 } . translation",
+            [5.0, 6.0, 7.0],
+        ),
+        (
+            "DecomposeMatrix { matrix 0 2 0 0 -3 0 0 0 0 0 4 0 5 6 7 1 } . scaleFactor",
+            [2.0, 3.0, 4.0],
+        ),
+        (
+            "DecomposeMatrix { matrix 0 2 0 0 -3 0 0 0 0 0 4 0 5 6 7 1 center 1 0 0 } . translation",
+            [4.0, 8.0, 7.0],
+        ),
+        (
+            "DecomposeMatrix { matrix -1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 } . scaleFactor",
+            [-1.0, -1.0, -1.0],
+        ),
+        (
+            "ComputeBoundingBox { node Cube { width 4 } } . min",
+            [-2.0, -1.0, -1.0],
+        ),
+        (
+            "ComputeBoundingBox { node Group { Translation { translation 1 2 3 } Sphere { } \
+             DrawStyle { style INVISIBLE } Translation { translation 10 0 0 } Cube { } } } . max",
+            [12.0, 3.0, 4.0],
+        ),
+        (
+            "ComputeBoundingBox { node Separator { Translation { translation 1 0 0 } \
+             Cube { width = Cone { height 8 } . height } } } . boxCenter",
+            [1.0, 0.0, 0.0],
+        ),
+        (
+            "ComputeBoundingBox { node Separator { Cube { } Separator { Cube { } \
+             Translation { translation 8 0 0 } Cube { } } } } . objectCenter",
+            [2.0, 0.0, 0.0],
+        ),
+        (
+            "ComputeBoundingBox { node ShapeKit { appearance.material Material { } \
+             transform Transform { translation 0 0 5 } } } . max",
+            [1.0, 1.0, 6.0],
+        ),
+        (
+            "ComputeBoundingBox { node Group { Cube { height = ComputeBoundingBox { \
+             node Sphere { radius 3 } } . max } } } . max",
+            [1.0, 1.5, 1.0],
+        ),
+        ("ComputeBoundingBox { } . max", [0.0, 0.0, 0.0]),
+        (
             "ComposeVec3f { x = DecomposeVec3f { vector 7 8 9 } . z y = TimeCounter { min 4 } . output } . vector",
             [9.0, 4.0, 0.0],
         ),
@@ -124,6 +170,34 @@ fn rotations_and_matrices_are_put_together() {
         .zip(wanted)
         .all(|(a, b)| (a - b).abs() < 1e-12);
     assert!(near, "{turned:?}");
+}
+
+#[test]
+fn the_parts_of_a_matrix_make_it_again() {
+    let matrices = [
+        "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",
+        "0 2 0 0 -3 0 0 0 0 0 4 0 5 6 7 1",
+        "-2 0 0 0 0 3 0 0 0 0 4 0 1 1 1 1",
+        "1 0.5 0 0 0 1 0.25 0 0.125 0 1 0 5 6 7 1",
+        "1 0.5 0 0 0 1 0.25 0 0.125 0 -3 0 5 6 7 1",
+    ];
+    for matrix in matrices {
+        for center in ["0 0 0", "1 -2 3"] {
+            let text = format!(
+                "DEF d DecomposeMatrix {{ matrix {matrix} center {center} }} \
+                 MatrixTransform {{ matrix = ComposeMatrix {{ translation = USE d . translation \
+                 rotation = USE d . rotation scaleFactor = USE d . scaleFactor \
+                 scaleOrientation = USE d . scaleOrientation center {center} }} . matrix }}"
+            );
+            let (graph, codes) = read(&text);
+            let got = value(&graph, Class::MatrixTransform, "matrix");
+            let wanted: Vec<f64> = matrix.split(' ').map(|n| n.parse().unwrap()).collect();
+            let near = got.numbers().iter().zip(&wanted);
+            let near = near.filter(|(a, b)| (*a - *b).abs() < 1e-12).count() == 16;
+            assert!(near, "{matrix}, {center}: {got:?}");
+            assert_eq!(codes, [] as [&str; 0], "{matrix}, {center}");
+        }
+    }
 }
 
 #[test]
@@ -225,6 +299,12 @@ fn what_is_not_known_beforehand_is_said() {
             "Cube { width = Sphere { radius = USE none . x } . radius }".into(),
             1.0,
             &["unknown-name"],
+        ),
+        (
+            "a box around a path",
+            "Cube { width = ComputeBoundingBox { path Path { } } . max }".into(),
+            2.0,
+            &["unknown-class", "connection"],
         ),
         (
             "closed gate",

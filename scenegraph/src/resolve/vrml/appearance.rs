@@ -5,19 +5,28 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2};
 
 use crate::graph::{FieldValue, Node, NodeId};
+use crate::lower::picture_name;
 use crate::registry::Class;
 use crate::resolve::not_supported;
 use crate::resolve::state::{ColorSource, State};
 use crate::resolve::walk::Walk;
 use crate::scene::{LightModel, Texture, TextureId, TextureModel, TextureSource, Wrap};
 
-/// What a texture does to the colours under it.
+/// Components of a texture: up to two multiply with the colours under it, more stand in their
+/// place; an alpha stands in place of the material's transparency (ISO 14772-1, table 4.5).
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Picture {
-    /// It multiplies with them.
-    Grey,
-    /// It stands in their place (ISO 14772-1, 4.14).
-    Colored,
+struct Picture {
+    components: u8,
+}
+
+impl Picture {
+    fn is_colored(self) -> bool {
+        self.components > 2
+    }
+
+    fn has_alpha(self) -> bool {
+        self.components.is_multiple_of(2)
+    }
 }
 
 impl Walk<'_> {
@@ -97,11 +106,14 @@ impl Walk<'_> {
             return;
         };
         let node = self.graph.node(texture);
-        let Some(picture) = self.picture(node) else {
+        let Some(picture) = self.picture(texture, node) else {
             return;
         };
         self.state.texture = Some(texture);
-        if picture == Picture::Colored {
+        if picture.has_alpha() {
+            self.state.material.transparency = ColorSource::Default;
+        }
+        if picture.is_colored() {
             self.state.material.diffuse = ColorSource::White;
             let share = material.map_or(0.0, |id| self.graph.node(id).number("ambientIntensity"));
             self.state.material.ambient = [share.clamp(0.0, 1.0); 3];
@@ -112,28 +124,23 @@ impl Walk<'_> {
         }
     }
 
-    /// What a texture is; `None` if it shows nothing. Files are not opened here: they are taken as
-    /// coloured, as nearly all are.
-    fn picture(&mut self, node: &Node) -> Option<Picture> {
-        match node.class() {
+    /// What a texture is; `None` if it shows nothing. What a file holds that nobody could look at
+    /// is taken as coloured, as nearly all are.
+    fn picture(&mut self, id: NodeId, node: &Node) -> Option<Picture> {
+        let components = match node.class() {
             Some(Class::VRMLPixelTexture) => match node.value("image") {
-                FieldValue::Image(Some(image)) if image.components < 3 => Some(Picture::Grey),
-                FieldValue::Image(Some(image)) => {
-                    // Its own alpha stands in place of the material's transparency.
-                    if image.components == 4 {
-                        self.state.material.transparency = ColorSource::Default;
-                    }
-                    Some(Picture::Colored)
-                }
-                _ => None,
+                FieldValue::Image(Some(image)) => image.components,
+                _ => return None,
             },
             Some(Class::VRMLMovieTexture) => {
                 not_supported(&mut self.remarks, "MovieTexture", node.pos);
-                None
+                return None;
             }
-            Some(Class::Texture2) => Some(Picture::Grey),
-            _ => (!node.value("url").texts().is_empty()).then_some(Picture::Colored),
-        }
+            Some(Class::Texture2) => 1,
+            _ if node.value("url").texts().is_empty() => return None,
+            _ => self.graph.pictures.get(&id).copied().unwrap_or(3),
+        };
+        Some(Picture { components })
     }
 }
 
@@ -151,15 +158,10 @@ impl Walk<'_> {
                 FieldValue::Image(Some(image)) => Some(TextureSource::Inline(Arc::clone(image))),
                 _ => None,
             },
-            _ => {
-                let urls = node.value("url").texts();
-                // Of several places the first one that is no web address.
-                let local = urls.iter().find(|url| !url.contains("://"));
-                local.or(urls.first()).map(|name| TextureSource::File {
-                    name: Arc::clone(name),
-                    beside: graph.files[node.pos.file as usize].folder.clone(),
-                })
-            }
+            _ => picture_name(node.value("url").texts()).map(|name| TextureSource::File {
+                name: Arc::clone(name),
+                beside: graph.files[node.pos.file as usize].folder.clone(),
+            }),
         };
         self.builder.texture(id, || Texture {
             name: node.name.clone(),

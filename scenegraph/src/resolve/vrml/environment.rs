@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use iv_parser::Severity;
 
 use crate::graph::{Node, NodeId};
 use crate::resolve::transforms::rotation;
@@ -56,6 +57,25 @@ impl Walk<'_> {
             color_srgb: node.triple("color").map(|v| v.clamp(0.0, 1.0)),
             visibility,
         });
+    }
+
+    /// The scene has no place for a background, as Inventor has none: it is the viewer's.
+    pub(super) fn background(&mut self, node: &Node) {
+        let [r, g, b] = node.triple("skyColor");
+        let message =
+            format!("the Background is left to the viewer; its sky begins as {r} {g} {b}");
+        let hint = "neither Inventor nor glTF has backgrounds";
+        self.remarks.warn("background", &message, hint, node.pos);
+    }
+
+    /// How a viewer moves says nothing about a picture, and the headlight is the viewer's.
+    pub(super) fn navigation_info(&mut self, node: &Node) {
+        let message = match node.flag("headlight") {
+            true => "NavigationInfo has no effect on a static picture",
+            false => "NavigationInfo turns the headlight off, which is left to the viewer",
+        };
+        self.remarks
+            .add(Severity::Note, "no-effect", message, "", node.pos);
     }
 
     /// Title and remarks become notes of the group.

@@ -56,11 +56,38 @@ impl Walk<'_> {
                     .clamp(0.0, std::f64::consts::FRAC_PI_2),
             },
         };
-        let light = self.vrml_light(id, kind);
+        let mut light = self.vrml_light(id, kind);
         let world = light.placement.world_from_local;
         let center = world.transform_point3(location);
         let radius = node.number("radius").max(0.0) * self.largest_scale();
-        self.builder.light_for_all(light, center, radius);
+        light.radius_in_world = Some(radius).filter(|r| r.is_finite());
+        let ambient = self.ambient_of(node, class == Class::VRMLPointLight);
+        self.builder.light_for_all(light, center, radius, ambient);
+    }
+
+    /// The ambient light that a light brings to what is in its radius. The scene's ambient light is
+    /// the same all over a shape, so that of a light which fades is left out.
+    fn ambient_of(&mut self, node: &Node, is_point: bool) -> [f64; 3] {
+        let ambient = node.number("ambientIntensity").clamp(0.0, 1.0);
+        if ambient == 0.0 {
+            return [0.0; 3];
+        }
+        let [constant, linear, quadratic] = node.triple("attenuation").map(|v| v.max(0.0));
+        if !is_point || linear > 0.0 || quadratic > 0.0 {
+            self.remarks.warn(
+                "light-ambient",
+                "the ambient light of a light that fades with distance or angle is left out",
+                "set ambientIntensity of a light with attenuation 1 0 0, or of a DirectionalLight",
+                node.pos,
+            );
+            return [0.0; 3];
+        }
+        let share = if constant > 0.0 {
+            ambient / constant
+        } else {
+            ambient
+        };
+        node.triple("color").map(|v| v.clamp(0.0, 1.0) * share)
     }
 
     fn vrml_light(&mut self, id: NodeId, kind: LightKind) -> Light {
@@ -86,6 +113,7 @@ impl Walk<'_> {
             color_srgb: node.triple("color").map(|v| v.clamp(0.0, 1.0)),
             intensity: node.number("intensity").clamp(0.0, 1.0),
             beam: None,
+            radius_in_world: None,
             environment,
         }
     }

@@ -7,6 +7,8 @@ mod appearance;
 mod environment;
 mod geometry;
 mod lights;
+#[cfg(test)]
+mod tests;
 
 use glam::{DAffine3, DMat3, DVec3};
 use iv_parser::{Dialect, Severity};
@@ -48,6 +50,8 @@ impl Walk<'_> {
             Class::VRMLViewpoint => self.viewpoint(id),
             Class::VRMLFog => self.vrml_fog(node),
             Class::VRMLWorldInfo => self.world_info(node),
+            Class::VRMLBackground => self.background(node),
+            Class::VRMLNavigationInfo => self.navigation_info(node),
             // A geometry without a Shape takes the state around it, as in Coin.
             _ if geometry::is_geometry(class) => self.vrml_geometry(id, id),
             _ if class.spec().support == Support::Kept => self.remarks.add(

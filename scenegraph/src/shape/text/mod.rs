@@ -29,7 +29,7 @@ use super::Job;
 use super::attributes::Attributes;
 
 /// Characters of one text; each takes some kilobytes.
-pub const MAX_CHARACTERS: usize = 65_536;
+pub const MAX_CHARACTERS: usize = 8_192;
 
 /// Characters without a glyph that a message names.
 const MAX_NAMED_CHARACTERS: usize = 8;
@@ -239,7 +239,7 @@ fn lines(
                 if left == 0 {
                     remarks.warn(
                         "long-text",
-                        "a text is too long",
+                        &format!("a text has more than {MAX_CHARACTERS} characters"),
                         "the rest of it was left out",
                         attributes.pos,
                     );

@@ -188,7 +188,7 @@ fn groups() {
             0,
             &["route"],
         ),
-        ("Background { }", 0, &["not-supported"]),
+        ("Background { }", 0, &["background"]),
     ];
     for (text, boxes, wanted) in rows {
         let text = format!("{text} ")

@@ -31,7 +31,7 @@ impl Measure {
     /// What the points say.
     pub fn results(&self) -> Measured {
         let points = &self.points;
-        let steps = points.windows(2).map(|pair| pair[0].distance(pair[1]));
+        let mut steps = points.windows(2).map(|pair| pair[0].distance(pair[1]));
         let angle = points.last_chunk::<3>().and_then(|[a, b, c]| {
             let (to_a, to_c) = ((a - b).try_normalize()?, (c - b).try_normalize()?);
             // The arc tangent is exact for small angles, the arc cosine is not.
@@ -46,8 +46,8 @@ impl Measure {
             twice.length() * 0.5
         });
         Measured {
-            distance: steps.clone().last(),
-            length: (points.len() > 2).then(|| steps.sum()),
+            length: (points.len() > 2).then(|| steps.clone().sum()),
+            distance: steps.next_back(),
             angle_deg: angle,
             area,
         }
@@ -129,7 +129,7 @@ mod tests {
             (measured.distance, measured.angle_deg, measured.area),
             (Some(0.0), None, Some(0.0))
         );
-        assert_eq!(significant(1234.567_891), "1234.568");
+        assert_eq!(significant(1_234.567_891), "1234.568");
         assert_eq!(significant(0.000_123_456_78), "0.0001234568");
     }
 }

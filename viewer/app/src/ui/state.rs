@@ -310,7 +310,7 @@ impl App {
         self.fail(format!("{}: {why}{kept}", loading.path.display()));
         if self.model.is_none() {
             let wake_nobody = || ();
-            self.watch = Watch::new(&[loading.path.clone()], wake_nobody);
+            self.watch = Watch::new(std::slice::from_ref(&loading.path), wake_nobody);
         }
         self.left_tab = LeftTab::Messages;
         self.failure = Some(Failure {
