@@ -157,7 +157,17 @@ mod tests {
         let scene = crate::resolve(&graph, &ResolveOptions::default()).scene;
         let all = scene.subset(|_| true);
         assert_eq!(all.check(), Vec::new());
-        assert_eq!(all.instances, scene.instances);
+        let lit = |scene: &crate::scene::Scene, i: usize| {
+            scene.light_sets[scene.instances[i].light_set.index()].clone()
+        };
+        for (i, (instance, same)) in all.instances.iter().zip(&scene.instances).enumerate() {
+            assert_eq!(instance.placement, same.placement);
+            assert_eq!(
+                (instance.mesh, instance.material),
+                (same.mesh, same.material)
+            );
+            assert_eq!(lit(&all, i), lit(&scene, i));
+        }
         assert_eq!(all.texts, scene.texts);
 
         let cube = scene.subset(|i| i == 0);

@@ -5,6 +5,7 @@
 
 pub mod cli;
 pub mod config;
+pub mod fields;
 mod input;
 pub mod load;
 pub mod model;

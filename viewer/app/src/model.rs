@@ -16,6 +16,7 @@ use viewer::texture::Images;
 use viewer::view::framing::Up;
 use viewer::view::{Region, View};
 
+use crate::fields::Fields;
 use crate::outline::Outline;
 
 /// How far beside a line or a point a click may be.
@@ -66,6 +67,8 @@ pub struct Model {
     pub picker: Option<(Picker, u64)>,
     /// The files it was read from, itself first.
     pub files: Vec<PathBuf>,
+    /// What its source says of nodes, once somebody asked.
+    pub fields: Option<Fields>,
     /// Opens the files it refers to, once it is all read.
     pub loader: Option<Files>,
 }
@@ -94,6 +97,7 @@ impl Model {
             edits: Edits::default(),
             revision: 0,
             picker: None,
+            fields: None,
             loader: None,
         }
     }

@@ -86,12 +86,11 @@ impl Outline {
     /// The instances in a row.
     pub fn instances(&self, row: usize) -> impl Iterator<Item = usize> {
         let end = self.rows.get(row).map_or(row, |r| r.end);
-        self.rows[row.min(end)..end]
-            .iter()
-            .filter_map(|r| match r.item {
-                Item::Instance(instance) => Some(instance),
-                Item::Node(_) => None,
-            })
+        let inside = self.rows.get(row..end).unwrap_or_default();
+        inside.iter().filter_map(|r| match r.item {
+            Item::Instance(instance) => Some(instance),
+            Item::Node(_) => None,
+        })
     }
 
     /// The rows around a row, from the inside out.
@@ -170,23 +169,24 @@ mod tests {
             .map(|r| format!("{}{}", "  ".repeat(r.depth), r.label))
             .collect();
         let expected = [
-            "House",
-            "  Roof",
-            "  Separator",
-            "    Door",
+            "Separator",
+            "  House",
+            "    Roof",
+            "    Separator",
+            "      Door",
+            "      Faces",
             "    Faces",
-            "  Faces",
-            "Tree",
-            "  Trunk",
+            "  Tree",
+            "    Trunk",
         ];
         assert_eq!(rows, expected);
-        assert_eq!(outline.instances(0).collect::<Vec<_>>(), [0, 1, 2, 3]);
-        assert_eq!(outline.instances(2).collect::<Vec<_>>(), [1, 2]);
-        assert_eq!(outline.instances(7).collect::<Vec<_>>(), [4]);
+        assert_eq!(outline.instances(1).collect::<Vec<_>>(), [0, 1, 2, 3]);
+        assert_eq!(outline.instances(3).collect::<Vec<_>>(), [1, 2]);
+        assert_eq!(outline.instances(8).collect::<Vec<_>>(), [4]);
         assert_eq!(outline.instances(99).count(), 0);
-        assert_eq!(outline.row_of_instance, [1, 3, 4, 5, 7]);
-        assert_eq!(outline.ancestors(3).collect::<Vec<_>>(), [2, 0]);
-        assert_eq!(outline.rows[3].class.as_deref(), Some("Faces"));
-        assert_eq!(outline.rows[2].class, None);
+        assert_eq!(outline.row_of_instance, [2, 4, 5, 6, 8]);
+        assert_eq!(outline.ancestors(4).collect::<Vec<_>>(), [3, 1, 0]);
+        assert_eq!(outline.rows[4].class.as_deref(), Some("Faces"));
+        assert_eq!(outline.rows[3].class, None);
     }
 }

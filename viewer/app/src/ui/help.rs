@@ -1,9 +1,17 @@
 //! The cheat sheet.
 
-use egui::{Context, Grid, Window};
+use egui::{Context, Grid, Key, KeyboardShortcut, Window};
 
 use super::command::{ALL, MOUSE, Menu};
 use super::state::App;
+
+/// A key as it stands on keyboards.
+pub(super) fn key_text(ctx: &Context, key: &KeyboardShortcut) -> String {
+    if key.logical_key == Key::Questionmark {
+        return "?".to_owned();
+    }
+    ctx.format_shortcut(key)
+}
 
 impl App {
     pub(super) fn help_window(&mut self, ctx: &Context) {
@@ -25,7 +33,7 @@ impl App {
                                 let Some(key) = &entry.key else {
                                     continue;
                                 };
-                                ui.strong(ctx.format_shortcut(key));
+                                ui.strong(key_text(ctx, key));
                                 ui.label(entry.text);
                                 ui.end_row();
                             }

@@ -3,6 +3,7 @@
 use egui::{Button, MenuBar, Ui};
 
 use super::command::{ALL, Command, Menu};
+use super::help::key_text;
 use super::state::App;
 
 impl App {
@@ -25,7 +26,7 @@ impl App {
         for entry in ALL.iter().filter(|entry| entry.menu == menu) {
             let mut button = Button::new(entry.text);
             if let Some(key) = &entry.key {
-                button = button.shortcut_text(ctx.format_shortcut(key));
+                button = button.shortcut_text(key_text(&ctx, key));
             }
             if let Some(is_on) = self.is_on(entry.command) {
                 button = button.selected(is_on);

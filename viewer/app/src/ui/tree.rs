@@ -5,6 +5,11 @@ use egui::{ScrollArea, TextEdit, Ui};
 use super::state::App;
 
 impl App {
+    /// Looks for names in the tree.
+    pub fn search(&mut self, text: &str) {
+        text.clone_into(&mut self.search);
+    }
+
     pub(super) fn tree(&mut self, ui: &mut Ui) {
         ui.add(TextEdit::singleline(&mut self.search).hint_text("Search names"));
         let rows = self.visible_rows();

@@ -27,9 +27,14 @@ fn exit_codes_and_messages() {
         (
             "cube.iv",
             2,
-            &["error: without --output ", "a later version", "--help"],
+            &["error: there is no window to be had: ", "with --output PNG"],
         ),
-        ("", 2, &["<MODEL>", "Usage: ivview"]),
+        ("", 2, &["error: there is no window to be had: "]),
+        (
+            "-o a.png",
+            2,
+            &["error: --output draws one model; give one"],
+        ),
         (
             "use.iv -o a.png",
             0,
