@@ -177,7 +177,8 @@ impl App {
         let by = DVec2::new(f64::from(moved.x), -f64::from(moved.y)) / height;
         let (shift, held) = ui.input(|i| (i.modifiers.shift, i.keys_down.clone()));
         if response.drag_started() {
-            let at = response.interact_pointer_pos();
+            // Where the button was pressed: a drag is known as one only some points further.
+            let at = ui.input(|i| i.pointer.press_origin());
             let p = at.and_then(|at| self.p_below(at));
             if let Some(p) = p {
                 navigator.set_pivot_depth(p);

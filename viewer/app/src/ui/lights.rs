@@ -3,6 +3,7 @@
 use egui::{DragValue, Grid, Ui};
 use viewer::content::{LightEdit, LightShape};
 
+use super::look::named;
 use super::state::App;
 
 impl App {
@@ -24,7 +25,7 @@ impl App {
             let drag = DragValue::new(&mut edits.ambient_factor)
                 .speed(0.01)
                 .range(0.0..=10.0);
-            ui.add(drag);
+            named(&ui.add(drag), "Ambient light");
         });
         let count = model.scene.lights.len();
         edits.lights.resize(count, LightEdit::default());
@@ -35,7 +36,7 @@ impl App {
                     Some(name) => name.to_string(),
                     None => format!("Light {i}"),
                 };
-                ui.checkbox(&mut edit.is_on, name);
+                ui.checkbox(&mut edit.is_on, &name);
                 ui.weak(match light.shape {
                     LightShape::Directional { .. } => "directional",
                     LightShape::Point { .. } => "point",
@@ -44,7 +45,8 @@ impl App {
                 let factor = DragValue::new(&mut edit.factor)
                     .speed(0.01)
                     .range(0.0..=100.0);
-                ui.add_enabled(edit.is_on, factor.prefix("× "));
+                let factor = ui.add_enabled(edit.is_on, factor.prefix("× "));
+                named(&factor, &format!("Intensity of {name}"));
                 ui.end_row();
             }
         });

@@ -1,6 +1,6 @@
 //! The panel of how things look.
 
-use egui::{ComboBox, DragValue, Ui};
+use egui::{ComboBox, DragValue, Response, Ui};
 use viewer::content::FaceEdit;
 use viewer::frame::{Extraction, Shadows, VolumeMethod};
 use viewer::view::framing::Up;
@@ -8,6 +8,13 @@ use viewer::view::framing::Up;
 use super::command::Command;
 use super::state::App;
 use crate::cli::background;
+
+/// Gives a widget without a text a name for those who do not see it.
+pub(super) fn named(response: &Response, name: &str) {
+    response
+        .ctx
+        .accesskit_node_builder(response.id, |node| node.set_label(name));
+}
 
 /// The techniques, by the words of `--shadows`.
 const TECHNIQUES: [(&str, Shadows); 5] = [
@@ -68,13 +75,14 @@ impl App {
         let mut wanted = self.shadows;
         let known = TECHNIQUES.iter().find(|(_, shadows)| *shadows == wanted);
         let text = known.map_or("Other", |(text, _)| text);
-        ComboBox::from_id_salt("technique")
+        let choice = ComboBox::from_id_salt("technique")
             .selected_text(text)
             .show_ui(ui, |ui| {
                 for (text, shadows) in TECHNIQUES {
                     ui.selectable_value(&mut wanted, shadows, text);
                 }
             });
+        named(&choice.response, "How shadows are made");
         if wanted != self.shadows {
             self.shadows = wanted;
             self.settings.shadows = wanted;
@@ -105,7 +113,7 @@ impl App {
                     *color = srgb.map(|c| f64::from(c) / 255.0);
                 }
             }
-            ComboBox::from_id_salt("background")
+            let choice = ComboBox::from_id_salt("background")
                 .selected_text("named")
                 .show_ui(ui, |ui| {
                     for (name, color) in background::NAMED {
@@ -114,6 +122,7 @@ impl App {
                         }
                     }
                 });
+            named(&choice.response, "Named backgrounds");
         });
     }
 
@@ -122,9 +131,11 @@ impl App {
         ui.horizontal(|ui| {
             ui.checkbox(&mut is_own, "Saved pictures of");
             let mut size = self.picture_size.unwrap_or(self.canvas.size);
-            ui.add_enabled(is_own, DragValue::new(&mut size.0).range(1..=8192));
+            let width = ui.add_enabled(is_own, DragValue::new(&mut size.0).range(1..=8192));
+            named(&width, "Width of saved pictures");
             ui.label("×");
-            ui.add_enabled(is_own, DragValue::new(&mut size.1).range(1..=8192));
+            let height = ui.add_enabled(is_own, DragValue::new(&mut size.1).range(1..=8192));
+            named(&height, "Height of saved pictures");
             self.picture_size = is_own.then_some(size);
         });
     }

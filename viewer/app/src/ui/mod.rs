@@ -31,6 +31,9 @@ pub use state::{App, Counters, Notice, Start};
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
+/// Points; a line of text, and room around it.
+const STATUS_HEIGHT: f32 = 24.0;
+
 impl App {
     /// One pass: takes what the threads have sent, does what is asked for, shows everything.
     pub fn show(&mut self, ui: &mut Ui) {
@@ -42,7 +45,10 @@ impl App {
         }
         self.take_dropped(&ctx);
         Panel::top("menu").show(ui, |ui| self.menu_bar(ui));
-        Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
+        // Texts that come and go must not change the picture's size.
+        Panel::bottom("status")
+            .exact_size(STATUS_HEIGHT)
+            .show(ui, |ui| self.status_bar(ui));
         if self.config.shows_tree {
             Panel::left("model")
                 .default_size(260.0)
@@ -79,7 +85,7 @@ impl App {
     }
 
     fn right_panel(&mut self, ui: &mut Ui) {
-        egui::ScrollArea::vertical().show(ui, |ui| {
+        egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             let open = |title: &str| egui::CollapsingHeader::new(title).default_open(true);
             open("Properties").show(ui, |ui| self.properties(ui));
             if self.measure.is_active {

@@ -278,6 +278,7 @@ impl App {
         self.open_rows = vec![false; model.outline.rows.len()];
         self.model = Some(model);
         self.overlays = Overlays::default();
+        self.canvas.forget();
         self.take_over(selected, &hidden);
     }
 

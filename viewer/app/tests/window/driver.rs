@@ -67,7 +67,8 @@ impl Driver {
         };
         let mut start = Some(start);
         let harness = Harness::builder()
-            .with_size(vec2(900.0, 600.0))
+            .with_size(vec2(1300.0, 640.0))
+            .with_step_dt(1.0 / 60.0)
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
                     let ctx = ui.ctx().clone();
@@ -123,6 +124,15 @@ impl Driver {
     pub fn place(&mut self, x: f32, y: f32) -> Pos2 {
         let rect = self.app().canvas.rect.unwrap();
         rect.min + rect.size() * vec2(x, y)
+    }
+
+    /// The place on the screen of a point of the world.
+    pub fn place_of(&mut self, p_in_world: glam::DVec3) -> Pos2 {
+        let (width, height) = self.app().canvas.size;
+        let region = viewer::view::Region::whole(width, height);
+        let view = self.app().navigator.unwrap().view;
+        let [x, y] = viewer::pick::pixel_of(&view, &region, p_in_world).unwrap();
+        self.place(x as f32 / width as f32, y as f32 / height as f32)
     }
 
     pub fn key(&mut self, key: Key) {

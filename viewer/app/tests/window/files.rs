@@ -39,7 +39,7 @@ fn a_change_is_shown_from_the_same_place_and_a_broken_one_is_not() {
     driver.until("the change is read", |app| app.loading.is_some());
     driver.settle();
     let (red, green) = redness(&mut driver);
-    assert!(red == 0 && green > 100, "{red} {green}");
+    assert!(red < 40 && green > 100, "{red} {green}");
     assert_eq!(driver.app().navigator.unwrap().view, view);
 
     std::fs::write(&path, "#X3D V3.0 utf8\nShape { }\n").unwrap();

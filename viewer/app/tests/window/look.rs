@@ -9,7 +9,7 @@ use crate::driver::{Driver, different};
 /// A slab over a floor, lit from above.
 const SLAB: &str = "#Inventor V2.1 ascii
 Separator {
-  PerspectiveCamera { position 0 -9 7 orientation 1 0 0 0.92 }
+  PerspectiveCamera { position 3 -9 7 orientation 1 0 0 0.92 }
   DEF Sun DirectionalLight { direction 0.3 0.2 -1 }
   ShapeHints { vertexOrdering COUNTERCLOCKWISE shapeType SOLID }
   Material { diffuseColor 0.8 0.7 0.6 }
@@ -70,7 +70,7 @@ fn overlays_are_seen_and_leave_no_trace() {
     ] {
         driver.key(key);
         let over = different(&plain, &driver.picture());
-        assert!(over > 20, "{key:?}: {over} pixels");
+        assert!(over > 5, "{key:?}: {over} pixels");
         driver.key(key);
         assert_eq!(different(&plain, &driver.picture()), 0, "{key:?}");
     }
@@ -80,16 +80,17 @@ fn overlays_are_seen_and_leave_no_trace() {
 fn a_section_opens_the_model_and_caps_it() {
     let mut driver = Driver::with_text(SLAB);
     let whole = driver.picture();
-    let middle = driver.place(0.4, 0.5);
     driver.key(Key::K);
     let cut = driver.picture();
     assert!(different(&whole, &cut) > 1000);
     // The side with larger x is away: nothing is drawn and picked there.
-    let right = driver.place(0.75, 0.5);
-    assert!(driver.app().hit_below(right).is_none());
-    assert!(driver.app().hit_below(middle).is_some());
-    // Caps are 0.7 times the surface's colour: 143, 125, 107, whatever the light.
-    let is_cap = |p: &&image::Rgba<u8>| p.0[..3] == [143, 125, 107];
+    for (x, is_there) in [(-0.5, true), (1.0, false)] {
+        let place = driver.place_of(glam::DVec3::new(x, -3.5, 0.1));
+        assert_eq!(driver.app().hit_below(place).is_some(), is_there, "{x}");
+    }
+    // Caps are 0.7 times the surface's colour, whatever the light.
+    let near = |a: u8, b: u8| a.abs_diff(b) <= 1;
+    let is_cap = |p: &&image::Rgba<u8>| near(p.0[0], 143) && near(p.0[1], 125) && near(p.0[2], 107);
     assert!(cut.pixels().filter(is_cap).count() > 100);
     assert_eq!(whole.pixels().filter(is_cap).count(), 0);
     driver.key(Key::K);

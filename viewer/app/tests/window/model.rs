@@ -85,13 +85,9 @@ fn the_tree_is_searched_and_selects() {
 fn distances_are_measured_between_corners() {
     let mut driver = Driver::with_text(CUBES);
     driver.key(Key::M);
-    // The view is 6 high; the green cube's corners are at 1 of 3 from the middle.
-    let size = driver.app().canvas.size;
-    let aspect = size.0 as f32 / size.1 as f32;
-    let at = |x: f32, y: f32| (0.5 + x / 6.0 / aspect, 0.5 - y / 6.0);
+    // Near corners of the green cube.
     for (x, y) in [(-0.97, -0.97), (0.97, -0.97), (0.97, 0.97)] {
-        let (u, v) = at(x, y);
-        let place = driver.place(u, v);
+        let place = driver.place_of(glam::DVec3::new(x, y, 1.0));
         driver.click(place);
     }
     let measured = driver.app().measure.results();
