@@ -11,6 +11,7 @@ mod dialogs;
 mod export;
 mod help;
 mod lights;
+pub mod manual;
 mod look;
 mod measure;
 mod menu;
