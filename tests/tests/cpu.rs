@@ -13,6 +13,7 @@ mod cpu {
     mod gltf_in;
     mod includes;
     mod large;
+    mod limited;
     mod links;
     mod measures;
     mod models;

@@ -55,6 +55,44 @@ fn binary_forms(texts: &[Vec<u8>]) -> Vec<Vec<u8>> {
     texts.iter().filter_map(stored).collect()
 }
 
+/// Models in all forms: text of Inventor and VRML, binary, packed.
+pub fn any_forms() -> Vec<Vec<u8>> {
+    let mut forms = sample_texts();
+    let rule = |r: &super::rules::check::Rule| format!("#Inventor V2.1 ascii\n{}", r.text);
+    forms.extend(
+        super::rules::table::RULES
+            .iter()
+            .map(|r| rule(r).into_bytes()),
+    );
+    forms.push(VRML_2.as_bytes().to_vec());
+    forms.extend(binary_forms(&forms));
+    forms.extend(packed_forms(&forms));
+    forms
+}
+
+/// Much of VRML 2.0 in one file.
+const VRML_2: &str = "#VRML V2.0 utf8
+PROTO Part [ field SFColor paint 1 0 0 exposedField SFVec3f at 0 0 0 ] {
+  Transform { translation IS at children Shape {
+    appearance Appearance { material Material { diffuseColor IS paint } texture PixelTexture { image 1 1 3 0xff8800 } }
+    geometry Box { size 1 2 3 } } }
+}
+DEF Sun DirectionalLight { direction 0 -1 -1 ambientIntensity 0.3 }
+PointLight { location 1 2 3 radius 20 attenuation 1 0.1 0 }
+Viewpoint { position 0 0 20 fieldOfView 0.8 description \"front\" }
+Part { paint 0 1 0 at 3 0 0 } Part { at -3 0 0 }
+Switch { whichChoice 0 choice [ Shape { geometry Sphere { radius 2 } } ] }
+LOD { range [ 10 ] level [ Shape { geometry Cone { } } Shape { geometry Cylinder { } } ] }
+Shape { geometry Extrusion { crossSection [ 1 1, 1 -1, -1 -1, -1 1, 1 1 ] spine [ 0 0 0, 0 1 0, 1 2 0 ] scale [ 1 1, 0.5 0.5 ] } }
+Shape { geometry ElevationGrid { xDimension 3 zDimension 3 height [ 0 1 0 1 2 1 0 1 0 ] xSpacing 2 } }
+Shape { geometry IndexedFaceSet { coord DEF C Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } coordIndex [ 0 1 2 3 -1 ]
+  color Color { color [ 1 0 0, 0 1 0, 0 0 1, 1 1 1 ] } creaseAngle 0.5 solid FALSE } }
+Shape { geometry IndexedLineSet { coord USE C coordIndex [ 0 1 2 -1 ] } }
+Shape { geometry Text { string [ \"ab\", \"c\" ] fontStyle FontStyle { size 2 justify \"MIDDLE\" } } }
+DEF T TimeSensor { } DEF P PositionInterpolator { key [ 0 1 ] keyValue [ 0 0 0, 1 1 1 ] }
+ROUTE T.fraction_changed TO P.set_fraction
+";
+
 #[test]
 fn samples_and_rules() {
     let samples = ALL.iter().map(|s| fs::read(path_of(s)).expect("a sample"));
@@ -113,15 +151,7 @@ fn what_was_a_fault_is_none() {
 
 #[test]
 fn mutated_inputs() {
-    let mut texts = sample_texts();
-    let rule = |r: &super::rules::check::Rule| format!("#Inventor V2.1 ascii\n{}", r.text);
-    texts.extend(
-        super::rules::table::RULES
-            .iter()
-            .map(|r| rule(r).into_bytes()),
-    );
-    texts.extend(binary_forms(&texts));
-    texts.extend(packed_forms(&texts));
+    let texts = any_forms();
     let number = |name, usual| {
         let given = std::env::var(name).ok();
         given.and_then(|n| n.parse().ok()).unwrap_or(usual)
@@ -151,20 +181,20 @@ fn mutated_inputs() {
 }
 
 /// Keeps an input for a closer look; says where.
-fn keep(input: &[u8]) -> String {
+pub fn keep(input: &[u8]) -> String {
     let path = std::env::temp_dir().join("ivory-input.iv");
     fs::write(&path, input).expect("a file for the input");
     path.display().to_string()
 }
 
 /// Ends the process with a message when an input never ends.
-struct Watch {
+pub struct Watch {
     /// Dropped when the input has ended.
     _ended: mpsc::Sender<()>,
 }
 
 impl Watch {
-    fn over(input: &[u8]) -> Self {
+    pub fn over(input: &[u8]) -> Self {
         let input = input.to_vec();
         let (sender, receiver) = mpsc::channel();
         std::thread::spawn(move || {

@@ -51,6 +51,9 @@ mod tests {
             std::fs::write(path, &text).unwrap();
         }
         let stored = std::fs::read_to_string(path).unwrap();
-        assert!(stored == text, "docs/VIEWER.md is out of date: run with UPDATE_DOCS=1");
+        assert!(
+            stored == text,
+            "docs/VIEWER.md is out of date: run with UPDATE_DOCS=1"
+        );
     }
 }
