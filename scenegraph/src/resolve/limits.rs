@@ -3,8 +3,8 @@
 
 use crate::graph::{FieldValue, Graph};
 
-/// Named limits for the largest models; smaller ones have lower limits, see
-/// [`ResolveLimits::of`]. When one is reached, what comes behind in the model is left out, with an
+/// Named limits for the largest models; smaller ones have lower limits, by what is
+/// written in them. When one is reached, what comes behind in the model is left out, with an
 /// error that says which it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResolveLimits {

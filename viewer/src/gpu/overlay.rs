@@ -7,7 +7,7 @@ use super::device::Gpu;
 use super::geometry::MeshRange;
 use super::pipeline_key::{FlatKind, PipelineKey};
 use super::record::Recorder;
-use super::record_shadows::volume_parts;
+use super::record_shadows::sides;
 use crate::content::Primitive;
 use crate::frame::{PassKind, Plan, Settings};
 use crate::overlay::{Corner, Overlay, Segment, Shared};
@@ -80,7 +80,7 @@ pub fn keys(plan: &Plan, view: &View, settings: &Settings, gpu: &Gpu) -> Vec<Pip
         .collect();
     if settings.overlay.has_volumes {
         for pass in &plan.passes {
-            for part in volume_parts(pass, plan, view, false) {
+            for part in sides(pass, plan, view) {
                 keys.push(PipelineKey::ShownVolume { part, samples });
             }
         }

@@ -97,7 +97,7 @@ pub fn flat(
         })
 }
 
-/// Draws the sides of shadow volumes that are before the scene; caps are the scene itself.
+/// Draws the sides of shadow volumes, where they are before the scene.
 pub fn shown_volume(
     gpu: &Gpu,
     layouts: &Layouts,
@@ -107,9 +107,7 @@ pub fn shown_volume(
 ) -> wgpu::RenderPipeline {
     let entry_point = match part {
         VolumePart::ZPassSides => "side_cut",
-        VolumePart::ZFailSides => "side",
-        VolumePart::ZPassLightCap { .. } | VolumePart::LightCap { .. } => "light_cap",
-        VolumePart::DarkCap { .. } => "dark_cap",
+        _ => "side",
     };
     gpu.device
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {

@@ -13,7 +13,7 @@ use super::renderer::PassReport;
 use super::shadow_map::VIEW_STRIDE;
 use super::volumes::{LightVolumes, VolumeRanges};
 use crate::content::LightShape;
-use crate::frame::{Pass, PassKind, Plan};
+use crate::frame::{Pass, PassKind, Plan, VolumeDraw};
 use crate::view::{Lens, View};
 
 /// The parts of volumes that a pass draws. A directional light needs no dark caps: at infinity
@@ -50,6 +50,13 @@ pub(super) fn volume_parts(
             parts.extend([true, false].map(|is_pos| VolumePart::DarkCap { is_pos }));
         }
     }
+    parts
+}
+
+/// The parts that are sides: caps are the scene itself, and infinity.
+pub(super) fn sides(pass: &Pass, plan: &Plan, view: &View) -> Vec<VolumePart> {
+    let mut parts = volume_parts(pass, plan, view, false);
+    parts.retain(|part| matches!(part, VolumePart::ZPassSides | VolumePart::ZFailSides));
     parts
 }
 
@@ -186,9 +193,17 @@ impl Recorder<'_> {
         });
         let mut render_pass = self.begin(encoder, "shown volumes", true, depth, stencil, light);
         render_pass.set_bind_group(2, &volumes.group, &[]);
+        // Of what is selected, or of everything.
+        let selected = &self.settings.overlay.selected;
+        let objects = &self.renderer.content.objects;
+        let is_shown = |volume: &&VolumeDraw| {
+            let instance = objects[volume.object as usize].instance;
+            selected.is_empty() || selected.binary_search(&instance).is_ok()
+        };
+        let shown: Vec<VolumeDraw> = pass.volumes.iter().filter(is_shown).cloned().collect();
         for layer in 0..volumes.layer_count() {
-            let ranges = volumes.ranges(layer, &pass.volumes);
-            for part in volume_parts(pass, self.plan, self.view, false) {
+            let ranges = volumes.ranges(layer, &shown);
+            for part in sides(pass, self.plan, self.view) {
                 let samples = self.targets.samples;
                 let key = PipelineKey::ShownVolume { part, samples };
                 let Some(pipeline) = self.renderer.pipelines.get(&key) else {

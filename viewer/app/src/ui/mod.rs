@@ -57,7 +57,7 @@ impl App {
         }
         if self.config.shows_settings {
             Panel::right("settings")
-                .default_size(270.0)
+                .default_size(310.0)
                 .show(ui, |ui| self.right_panel(ui));
         }
         CentralPanel::default()
@@ -86,9 +86,17 @@ impl App {
     }
 
     fn right_panel(&mut self, ui: &mut Ui) {
+        let width = ui.available_width() - ui.spacing().scroll.allocated_width();
         egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            ui.set_max_width(width);
             let open = |title: &str| egui::CollapsingHeader::new(title).default_open(true);
-            open("Properties").show(ui, |ui| self.properties(ui));
+            open("Properties").show(ui, |ui| {
+                // Long values do not make the other panels wider.
+                egui::ScrollArea::horizontal()
+                    .id_salt("properties")
+                    .max_width(width)
+                    .show(ui, |ui| self.properties(ui));
+            });
             if self.measure.is_active {
                 open("Measure").show(ui, |ui| self.measure_panel(ui));
             }

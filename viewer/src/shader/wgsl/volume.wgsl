@@ -72,7 +72,7 @@ fn cap_rel(index: u32) -> vec3f {
 // For the eye: sides as they are counted.
 @fragment
 fn shown() -> @location(0) vec4f {
-    return vec4f(0.15, 0.35, 1.0, 0.08);
+    return vec4f(0.15, 0.35, 1.0, 0.05);
 }
 
 @vertex
