@@ -1,15 +1,21 @@
 //! The line below: what is being done, what was done last, what is below the mouse.
 
-use egui::{Color32, Spinner, Ui};
+use std::time::Duration;
+
+use egui::{Color32, Ui};
 
 use super::state::App;
+
+/// How often the time is shown that a reading has taken.
+const TICK: Duration = Duration::from_millis(500);
 
 impl App {
     pub(super) fn status_bar(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let mut is_cancelled = false;
             if let Some(loading) = &self.loading {
-                ui.add(Spinner::new().size(12.0));
+                // Nothing that moves: painting it would slow down a reading that it waits for.
+                ui.ctx().request_repaint_after(TICK);
                 let name = loading.path.file_name().unwrap_or_default();
                 let seconds = loading.since.elapsed().as_secs_f64();
                 ui.label(format!(
