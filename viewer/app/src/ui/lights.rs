@@ -19,7 +19,10 @@ impl App {
         let Some(model) = &mut self.model else {
             return;
         };
+        let count = model.scene.lights.len();
         let mut edits = model.edits.clone();
+        edits.lights.resize(count, LightEdit::default());
+        let before = edits.clone();
         ui.horizontal(|ui| {
             ui.label("Ambient ×");
             let drag = DragValue::new(&mut edits.ambient_factor)
@@ -27,8 +30,6 @@ impl App {
                 .range(0.0..=10.0);
             named(&ui.add(drag), "Ambient light");
         });
-        let count = model.scene.lights.len();
-        edits.lights.resize(count, LightEdit::default());
         Grid::new("lights").num_columns(3).show(ui, |ui| {
             let lights = model.renderer.content().lights.iter();
             for (i, (light, edit)) in lights.zip(&mut edits.lights).enumerate() {
@@ -53,6 +54,9 @@ impl App {
         if count == 0 {
             ui.weak("The model has no lights.");
         }
-        model.edit(|now| *now = edits);
+        // Writing down what is so anyway would bring the scene to the device again.
+        if edits != before {
+            model.edit(|now| *now = edits);
+        }
     }
 }

@@ -9,7 +9,11 @@ use crate::driver::{Driver, different};
 #[test]
 fn nothing_is_drawn_without_a_reason() {
     let mut driver = Driver::with_sample("pavilion.iv");
+    // Without textures, and with them: showing the panels has edited nothing.
     let pictures = driver.app().counters.pictures;
+    assert!(pictures <= 2, "{pictures} pictures");
+    let revision = driver.app().model.as_ref().unwrap().revision;
+    assert_eq!(revision, 1);
     let start = Instant::now();
     while start.elapsed() < Duration::from_secs(5) {
         driver.harness.step();
