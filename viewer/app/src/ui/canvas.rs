@@ -300,6 +300,10 @@ impl App {
     }
 
     fn draw_if_needed(&mut self, ctx: &Context) {
+        // Panels that are shown for the first time ask for another pass, with other sizes.
+        if ctx.will_discard() {
+            return;
+        }
         let Some(navigator) = &self.navigator else {
             return;
         };
