@@ -41,7 +41,9 @@ fn message(ui: &mut Ui, diagnostic: &Diagnostic) {
     });
     ui.label(&diagnostic.message);
     if let Some(snippet) = &diagnostic.snippet {
-        ui.monospace(format!("{snippet:?}"));
+        ui.monospace(&snippet.line);
+        let before = " ".repeat(snippet.start);
+        ui.monospace(format!("{before}{}", "^".repeat(snippet.len)));
     }
     if !diagnostic.hint.is_empty() {
         ui.weak(&diagnostic.hint);

@@ -2,6 +2,7 @@
 
 use egui::{Grid, Stroke, Ui, pos2, vec2};
 use scenegraph::scene::Topology;
+use viewer::frame::PassKind;
 
 use super::state::App;
 
@@ -90,9 +91,45 @@ impl App {
                     row("Encode", ms(report.encode));
                     row("Draw", ms(report.draw));
                 }
+                for pass in self.passes() {
+                    row("Pass", pass);
+                }
                 row("Pictures drawn", self.counters.pictures.to_string());
                 row("Passes of the window", self.counters.passes.to_string());
             });
+    }
+
+    /// What each pass of the last picture did.
+    fn passes(&self) -> Vec<String> {
+        let Some((plan, report)) = &self.canvas.last else {
+            return Vec::new();
+        };
+        let reports = report.passes.iter();
+        let described = plan.passes.iter().zip(reports).map(|(pass, report)| {
+            let light = |light: u32| {
+                let name = plan
+                    .lights
+                    .get(light as usize)
+                    .and_then(|l| l.name.as_deref());
+                name.map_or_else(|| format!("light {light}"), str::to_owned)
+            };
+            let what = match pass.kind {
+                PassKind::Depth => "depth".to_owned(),
+                PassKind::First { light: None, .. } => "ambient".to_owned(),
+                PassKind::First { light: Some(i), .. } => format!("ambient and {}", light(i)),
+                PassKind::Volumes { light: i } => format!("volumes of {}", light(i)),
+                PassKind::Map { light: i } => format!("map of {}", light(i)),
+                PassKind::Rays { light: i } => format!("rays to {}", light(i)),
+                PassKind::Light { light: i, .. } => light(i),
+                PassKind::Transparent => "transparent".to_owned(),
+            };
+            let skipped: usize = pass.skipped.iter().map(|skip| skip.count).sum();
+            format!(
+                "{what}: {} drawn in {} calls, {skipped} left out",
+                report.primitives, report.draw_calls
+            )
+        });
+        described.collect()
     }
 
     /// How long the last pictures took.
