@@ -16,6 +16,7 @@ pub mod manual;
 mod measure;
 mod menu;
 mod messages;
+mod models;
 mod overlays;
 mod properties;
 mod select;
