@@ -189,7 +189,7 @@ impl App {
         if response.dragged_by(PointerButton::Middle)
             || response.dragged_by(PointerButton::Primary) && shift
         {
-            navigator.pan(by * DVec2::ONE);
+            navigator.pan(by);
         } else if response.dragged_by(PointerButton::Primary) {
             let pivot = self.canvas.drag_pivot.unwrap_or_else(|| navigator.pivot());
             navigator.orbit(angles, pivot);
