@@ -1,6 +1,7 @@
 //! How models come and go: opened, read again, taken over, lost with their device.
 
 use std::path::Path;
+use std::time::Duration;
 
 use egui::Context;
 use iv_parser::Diagnostic;
@@ -14,6 +15,10 @@ use crate::watch::Watch;
 
 /// Devices that are lost in a row before no further one is made.
 const MOST_LOST: u32 = 3;
+
+/// For so long after the start a window stays empty if its model may come in this time: painting would
+/// take the processor from reading it where there is no graphics card.
+const FIRST_WAIT: Duration = Duration::from_millis(600);
 
 impl App {
     /// Reads a file, and shows it when it is there. What is shown stays until then.
@@ -42,6 +47,16 @@ impl App {
         let wake = move || ctx.request_repaint();
         let loading = Loading::begin(path, &self.args, &self.device, is_reload, wake);
         self.loading = Some(loading);
+    }
+
+    /// Whether the first model is still being read, so soon after the start that nobody misses a
+    /// picture of nothing; takes what has been sent. The time until that is over.
+    pub fn first_wait(&mut self, ctx: &Context) -> Option<Duration> {
+        self.receive(ctx);
+        let is_first = self.model.is_none() && self.failure.is_none() && self.loading.is_some();
+        FIRST_WAIT
+            .checked_sub(self.since.elapsed())
+            .filter(|_| is_first)
     }
 
     /// Takes what threads have sent.

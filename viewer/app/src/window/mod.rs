@@ -206,6 +206,11 @@ impl Shell<'_> {
     }
 
     fn draw(&mut self, event_loop: &ActiveEventLoop) {
+        if let Some(wait) = self.app.first_wait(&self.ctx) {
+            let due = Instant::now() + wait;
+            self.next = Some(self.next.map_or(due, |next| next.min(due)));
+            return;
+        }
         let Some(open) = &mut self.window else {
             return;
         };
