@@ -130,7 +130,7 @@ impl Loading {
         match self.receiver.try_recv() {
             Ok(Sent::Stage(stage)) => {
                 self.stage = stage;
-                self.receive_next()
+                Some(Sent::Stage(stage))
             }
             Ok(sent) => Some(sent),
             Err(TryRecvError::Empty) => None,
@@ -138,16 +138,6 @@ impl Loading {
                 "reading stopped unexpectedly".to_owned(),
                 Vec::new(),
             )),
-        }
-    }
-
-    fn receive_next(&mut self) -> Option<Sent> {
-        match self.receiver.try_recv().ok()? {
-            Sent::Stage(stage) => {
-                self.stage = stage;
-                None
-            }
-            sent => Some(sent),
         }
     }
 }

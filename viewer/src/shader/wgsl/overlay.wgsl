@@ -11,28 +11,29 @@ fn nearer(clip: vec4f) -> vec4f {
     return vec4f(clip.xy, clip.z + 0.0001220703125 * clip.z, clip.w);
 }
 
+fn painted(instance: u32, position: vec3f, color: vec4f) -> Flat {
+    let rel = rel_of(instance, position);
+    return Flat(nearer(clip_of(rel)), rel, color);
+}
+
 @vertex
 fn tint(@builtin(instance_index) instance: u32, @location(0) position: vec3f) -> Flat {
-    let rel = rel_of(instance, position);
-    return Flat(nearer(clip_of(rel)), rel, vec4f(1.0, 0.55, 0.0, 0.4));
+    return painted(instance, position, vec4f(1.0, 0.55, 0.0, 0.4));
 }
 
 @vertex
 fn tint_behind(@builtin(instance_index) instance: u32, @location(0) position: vec3f) -> Flat {
-    let rel = rel_of(instance, position);
-    return Flat(nearer(clip_of(rel)), rel, vec4f(1.0, 0.55, 0.0, 0.12));
+    return painted(instance, position, vec4f(1.0, 0.55, 0.0, 0.12));
 }
 
 @vertex
 fn wire(@builtin(instance_index) instance: u32, @location(0) position: vec3f) -> Flat {
-    let rel = rel_of(instance, position);
-    return Flat(nearer(clip_of(rel)), rel, vec4f(0.1, 0.1, 0.1, 1.0));
+    return painted(instance, position, vec4f(0.1, 0.1, 0.1, 1.0));
 }
 
 @vertex
 fn dot_at(@builtin(instance_index) instance: u32, @location(0) position: vec3f) -> Flat {
-    let rel = rel_of(instance, position);
-    return Flat(nearer(clip_of(rel)), rel, vec4f(1.0, 0.1, 0.1, 1.0));
+    return painted(instance, position, vec4f(1.0, 0.1, 0.1, 1.0));
 }
 
 @vertex
