@@ -21,7 +21,7 @@ const LIMITS: ResolveLimits = ResolveLimits {
     steps: 100_000,
     depth: 1000,
     items: 2_000,
-    geometry_bytes: 64 << 20,
+    geometry_bytes: 8 << 20,
 };
 
 /// Parsing ends, and what was read without a problem reads back equal from its print.
