@@ -12,6 +12,7 @@ use scenegraph::graph::{FieldEntry, FieldValue, Graph, Node, NodeId};
 use scenegraph::registry::{Class, Family};
 
 use crate::cli::args::Args;
+use crate::load::Wake;
 
 /// Numbers of a list that are shown.
 const SHOWN: usize = 6;
@@ -46,7 +47,7 @@ pub struct Fields {
 
 impl Fields {
     /// Begins to read. `wake` is called when there is an answer.
-    pub fn new(path: &Path, args: &Args, wake: impl Fn() + Send + 'static) -> Self {
+    pub fn new(path: &Path, args: &Args, wake: Wake) -> Self {
         let (questions, asked) = channel::<SourcePos>();
         let (answer, answers) = channel();
         let (path, args) = (path.to_owned(), args.clone());

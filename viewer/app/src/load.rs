@@ -19,6 +19,9 @@ use crate::cli::args::Args;
 use crate::input::{self, Input};
 use crate::model::{Model, Times};
 
+/// Asks the window for a pass; any thread may.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
 /// A device that is being made, or was.
 #[derive(Clone, Default)]
 pub struct Device(Arc<OnceLock<Result<Gpu, String>>>);
@@ -95,13 +98,7 @@ pub struct Loading {
 
 impl Loading {
     /// Begins to read. `wake` is called whenever there is something to receive.
-    pub fn begin(
-        path: &Path,
-        args: &Args,
-        device: &Device,
-        is_reload: bool,
-        wake: impl Fn() + Send + 'static,
-    ) -> Self {
+    pub fn begin(path: &Path, args: &Args, device: &Device, is_reload: bool, wake: Wake) -> Self {
         let (sender, receiver) = channel();
         let is_cancelled = Arc::new(AtomicBool::new(false));
         let since = Instant::now();
@@ -149,16 +146,16 @@ impl Drop for Loading {
     }
 }
 
-struct Worker<W> {
+struct Worker {
     path: PathBuf,
     args: Args,
     device: Device,
     sender: Sender<Sent>,
     is_cancelled: Arc<AtomicBool>,
-    wake: W,
+    wake: Wake,
 }
 
-impl<W: Fn()> Worker<W> {
+impl Worker {
     fn run(self) {
         let mut diagnostics = Vec::new();
         match self.read(&mut diagnostics) {

@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 
+use crate::load::Wake;
+
 /// Changes come in bursts; a file is read again when it has been left alone for so long.
 const QUIET: Duration = Duration::from_millis(150);
 
@@ -22,7 +24,7 @@ pub struct Watch {
 impl Watch {
     /// Watches files. `wake` is called when something happens beside them. `None` if the system
     /// cannot watch.
-    pub fn new(files: &[PathBuf], wake: impl Fn() + Send + 'static) -> Option<Self> {
+    pub fn new(files: &[PathBuf], wake: Wake) -> Option<Self> {
         let (sender, receiver) = channel();
         let handler = move |event: notify::Result<notify::Event>| {
             let Ok(event) = event else {

@@ -17,16 +17,16 @@ impl App {
     /// Does what is asked for.
     pub fn run(&mut self, command: Command, ctx: &Context) {
         match command {
-            Command::Open => self.ask(Question::Open, ctx),
-            Command::Reload => self.reload(ctx),
-            Command::NextFile => self.step_file(1, ctx),
-            Command::PreviousFile => self.step_file(self.files.len().saturating_sub(1), ctx),
-            Command::SavePicture => self.ask(Question::SavePicture, ctx),
+            Command::Open => self.ask(Question::Open),
+            Command::Reload => self.reload(),
+            Command::NextFile => self.step_file(1),
+            Command::PreviousFile => self.step_file(self.files.len().saturating_sub(1)),
+            Command::SavePicture => self.ask(Question::SavePicture),
             Command::CopyPicture => self.copy_picture(ctx),
-            Command::Export => self.ask(Question::Export, ctx),
-            Command::ExportSelection => self.ask(Question::ExportSelection, ctx),
-            Command::LoadView => self.ask(Question::LoadView, ctx),
-            Command::SaveView => self.ask(Question::SaveView, ctx),
+            Command::Export => self.ask(Question::Export),
+            Command::ExportSelection => self.ask(Question::ExportSelection),
+            Command::LoadView => self.ask(Question::LoadView),
+            Command::SaveView => self.ask(Question::SaveView),
             Command::Quit => self.quits = true,
             Command::NextCamera => self.next_camera(),
             Command::Shadows => self.toggle_shadows(),
@@ -101,14 +101,14 @@ impl App {
         }
     }
 
-    fn step_file(&mut self, by: usize, ctx: &Context) {
+    fn step_file(&mut self, by: usize) {
         if self.files.len() < 2 {
             self.tell("there is no other file: give several on the command line".to_owned());
             return;
         }
         self.file = (self.file + by) % self.files.len();
         let path = self.files[self.file].clone();
-        self.load(&path, false, ctx);
+        self.load(&path, false);
     }
 
     fn next_camera(&mut self) {

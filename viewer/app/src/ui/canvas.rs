@@ -345,7 +345,7 @@ impl App {
                 self.canvas.last = Some((plan, report));
                 self.canvas.drawn = Some(wanted);
             }
-            Err(error) => self.recover(&error.to_string(), ctx),
+            Err(error) => self.recover(&error.to_string()),
         }
     }
 }

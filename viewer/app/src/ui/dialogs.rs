@@ -1,6 +1,7 @@
 //! Questions for a file, and what is done with the answer.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 
@@ -42,7 +43,7 @@ pub const MODELS: &[&str] = &[
 
 impl App {
     /// Asks in a dialog of the system; the answer comes later.
-    pub(super) fn ask(&mut self, question: Question, ctx: &Context) {
+    pub(super) fn ask(&mut self, question: Question) {
         if self.dialogs.open.is_some() {
             return;
         }
@@ -61,7 +62,7 @@ impl App {
             dialog = dialog.set_directory(folder);
         }
         let (sender, receiver) = channel();
-        let ctx = ctx.clone();
+        let wake = Arc::clone(&self.wake);
         let answer: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> =
             match question {
                 Question::Open => Box::pin(
@@ -96,12 +97,12 @@ impl App {
             let file = pollster::block_on(answer).map(|handle| handle.path().to_owned());
             // If the window is gone nobody waits for the answer.
             let _ = sender.send(file);
-            ctx.request_repaint();
+            wake();
         });
         self.dialogs.open = Some((question, receiver));
     }
 
-    pub(super) fn take_answer(&mut self, ctx: &Context) {
+    pub(super) fn take_answer(&mut self) {
         use std::sync::mpsc::TryRecvError;
         let Some((question, receiver)) = &self.dialogs.open else {
             return;
@@ -111,7 +112,7 @@ impl App {
             Ok(answer) => {
                 self.dialogs.open = None;
                 if let Some(path) = answer {
-                    self.answered(question, &path, ctx);
+                    self.answered(question, &path);
                 }
             }
             Err(TryRecvError::Disconnected) => self.dialogs.open = None,
@@ -120,10 +121,10 @@ impl App {
     }
 
     /// Does what a file was asked for.
-    pub fn answered(&mut self, question: Question, path: &Path, ctx: &Context) {
+    pub fn answered(&mut self, question: Question, path: &Path) {
         let done = match question {
             Question::Open => {
-                self.open(path, ctx);
+                self.open(path);
                 return;
             }
             Question::LoadView => self.load_view(path),
@@ -152,7 +153,7 @@ impl App {
             } else {
                 Question::Open
             };
-            self.answered(question, path, ctx);
+            self.answered(question, path);
         }
     }
 

@@ -56,12 +56,11 @@ impl App {
             if self.config.recent.is_empty() {
                 ui.weak("nothing yet");
             }
-            let ctx = ui.ctx().clone();
             for path in self.config.recent.clone() {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 let button = ui.button(name).on_hover_text(path.display().to_string());
                 if button.clicked() {
-                    self.open(&path, &ctx);
+                    self.open(&path);
                     ui.close();
                 }
             }

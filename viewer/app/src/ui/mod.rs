@@ -33,8 +33,12 @@ pub use state::{App, Counters, Notice, Start};
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
-/// Points; a line of text, and room around it.
-const STATUS_HEIGHT: f32 = 24.0;
+/// A line of text and room around it. Where the size followed from the contents, texts that come
+/// and go would change the picture's size, and it would be drawn twice at the start.
+fn bar(panel: Panel) -> Panel {
+    const HEIGHT_POINTS: f32 = 26.0;
+    panel.exact_size(HEIGHT_POINTS)
+}
 
 impl App {
     /// One pass: takes what the threads have sent, does what is asked for, shows everything.
@@ -46,11 +50,14 @@ impl App {
             self.run(command, &ctx);
         }
         self.take_dropped(&ctx);
-        Panel::top("menu").show(ui, |ui| self.menu_bar(ui));
-        // Texts that come and go must not change the picture's size.
-        Panel::bottom("status")
-            .exact_size(STATUS_HEIGHT)
-            .show(ui, |ui| self.status_bar(ui));
+        bar(Panel::top("menu")).show(ui, |ui| {
+            ui.take_available_height();
+            self.menu_bar(ui);
+        });
+        bar(Panel::bottom("status")).show(ui, |ui| {
+            ui.take_available_height();
+            self.status_bar(ui);
+        });
         if self.config.shows_tree {
             Panel::left("model")
                 .default_size(260.0)

@@ -1,6 +1,7 @@
 //! How models come and go: opened, read again, taken over, lost with their device.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use egui::Context;
@@ -22,7 +23,7 @@ const FIRST_WAIT: Duration = Duration::from_millis(600);
 
 impl App {
     /// Reads a file, and shows it when it is there. What is shown stays until then.
-    pub fn open(&mut self, path: &Path, ctx: &Context) {
+    pub fn open(&mut self, path: &Path) {
         match self.files.iter().position(|file| file == path) {
             Some(at) => self.file = at,
             None => {
@@ -30,21 +31,20 @@ impl App {
                 self.file = self.files.len() - 1;
             }
         }
-        self.load(path, false, ctx);
+        self.load(path, false);
     }
 
     /// Reads the file again that is shown, or could not be read.
-    pub fn reload(&mut self, ctx: &Context) {
+    pub fn reload(&mut self) {
         let failed = self.failure.as_ref().map(|failure| failure.path.clone());
         let shown = self.model.as_ref().map(|model| model.path.clone());
         if let Some(path) = shown.or(failed) {
-            self.load(&path, true, ctx);
+            self.load(&path, true);
         }
     }
 
-    pub(super) fn load(&mut self, path: &Path, is_reload: bool, ctx: &Context) {
-        let ctx = ctx.clone();
-        let wake = move || ctx.request_repaint();
+    pub(super) fn load(&mut self, path: &Path, is_reload: bool) {
+        let wake = Arc::clone(&self.wake);
         let loading = Loading::begin(path, &self.args, &self.device, is_reload, wake);
         self.loading = Some(loading);
     }
@@ -64,7 +64,7 @@ impl App {
         while let Some(sent) = self.loading.as_mut().and_then(Loading::receive) {
             match sent {
                 Sent::Stage(_) => {}
-                Sent::Model(model) => self.take_model(*model, ctx),
+                Sent::Model(model) => self.take_model(*model),
                 Sent::Images(images, diagnostics, files) => {
                     self.loading = None;
                     if let Some(model) = &mut self.model {
@@ -78,21 +78,20 @@ impl App {
         if let Some(watch) = &mut self.watch {
             match watch.poll() {
                 Ok(false) => {}
-                Ok(true) => self.reload(ctx),
+                Ok(true) => self.reload(),
                 Err(wait) => ctx.request_repaint_after(wait),
             }
         }
-        self.take_answer(ctx);
+        self.take_answer();
     }
 
-    fn take_model(&mut self, model: Model, ctx: &Context) {
+    fn take_model(&mut self, model: Model) {
         let is_reload = self.loading.as_ref().is_some_and(|l| l.is_reload)
             && self.model.as_ref().is_none_or(|m| m.path == model.path)
             && self.navigator.is_some();
         self.failure = None;
         self.notice = None;
-        let wake = ctx.clone();
-        self.watch = Watch::new(&model.files, move || wake.request_repaint());
+        self.watch = Watch::new(&model.files, Arc::clone(&self.wake));
         if !is_reload {
             self.camera = None;
             self.navigator = None;
@@ -139,8 +138,8 @@ impl App {
         };
         self.fail(format!("{}: {why}{kept}", loading.path.display()));
         if self.model.is_none() {
-            let wake_nobody = || ();
-            self.watch = Watch::new(std::slice::from_ref(&loading.path), wake_nobody);
+            let file = std::slice::from_ref(&loading.path);
+            self.watch = Watch::new(file, Arc::clone(&self.wake));
         }
         self.left_tab = LeftTab::Messages;
         self.failure = Some(Failure {
@@ -150,7 +149,7 @@ impl App {
     }
 
     /// The device is gone, or refused something: another one, and the model again.
-    pub(super) fn recover(&mut self, why: &str, ctx: &Context) {
+    pub(super) fn recover(&mut self, why: &str) {
         self.counters.lost += 1;
         self.lost_in_a_row += 1;
         let path = self.model.take().map(|model| model.path);
@@ -163,7 +162,7 @@ impl App {
         self.device = Device::begin(self.args.adapter());
         self.device_revision += 1;
         if let Some(path) = path {
-            self.load(&path, true, ctx);
+            self.load(&path, true);
         }
     }
 }

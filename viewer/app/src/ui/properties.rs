@@ -1,5 +1,7 @@
 //! What is known about what is selected: its fields in the source, and what they come to.
 
+use std::sync::Arc;
+
 use egui::{Grid, RichText, Ui};
 use iv_parser::SourcePos;
 use scenegraph::scene::Topology;
@@ -50,12 +52,10 @@ impl App {
         let Some(model) = &mut self.model else {
             return;
         };
-        let ctx = ui.ctx().clone();
         let path = model.path.clone();
-        let wake = move || ctx.request_repaint();
         let fields = model
             .fields
-            .get_or_insert_with(|| Fields::new(&path, &self.args, wake));
+            .get_or_insert_with(|| Fields::new(&path, &self.args, Arc::clone(&self.wake)));
         let Some(nodes) = fields.at(pos) else {
             ui.weak("reading the source…");
             return;

@@ -15,7 +15,7 @@ use super::overlays::{Over, Overlays};
 use crate::cli::args::Args;
 use crate::cli::camera::Viewpoint;
 use crate::config::Config;
-use crate::load::{Device, Loading};
+use crate::load::{Device, Loading, Wake};
 use crate::model::Model;
 use crate::watch::Watch;
 
@@ -29,6 +29,8 @@ pub struct Start {
     pub since: Instant,
     /// Where settings are kept; `None`: nowhere.
     pub config_path: Option<PathBuf>,
+    /// Asks for a pass.
+    pub wake: Wake,
 }
 
 /// Something the user is told in the status bar.
@@ -80,6 +82,7 @@ pub struct App {
     pub config: Config,
     pub(super) kept_config: Config,
     pub(super) config_path: Option<PathBuf>,
+    pub(super) wake: Wake,
     /// The files to go through.
     pub(super) files: Vec<PathBuf>,
     pub(super) file: usize,
@@ -133,6 +136,7 @@ impl App {
             device,
             since,
             config_path,
+            wake,
         } = start;
         let config = config_path.as_deref().map(Config::read).unwrap_or_default();
         let mut settings = args.settings();
@@ -161,6 +165,7 @@ impl App {
             kept_config: config.clone(),
             config,
             config_path,
+            wake,
             model: None,
             loading: None,
             is_first: true,
@@ -194,7 +199,7 @@ impl App {
             egui::Theme::Light
         });
         if let Some(first) = app.files.first().cloned() {
-            app.load(&first, false, ctx);
+            app.load(&first, false);
         }
         app
     }

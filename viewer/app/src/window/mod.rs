@@ -5,7 +5,7 @@
 
 mod stage;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use convert::command::messages;
@@ -40,17 +40,18 @@ pub fn run(args: &Args, screen: &Screen) -> Result<(), String> {
             "there is no window to be had: {why}; with --output PNG none is needed"
         ))
     };
-    let event_loop = EventLoop::<Wake>::with_user_event()
-        .build()
-        .map_err(|error| plain(&error))?;
+    // Reading begins before there is a loop: what comes until then is taken with the first frame.
+    let proxy = Arc::new(OnceLock::new());
     let ctx = Context::default();
-    let proxy = event_loop.create_proxy();
-    wake_by(&ctx, proxy);
+    wake_by(&ctx, Arc::clone(&proxy));
+    let waker = Arc::clone(&proxy);
     let start = Start {
         args: args.clone(),
         device,
         since,
         config_path: Config::path(),
+        // The context says nothing while the pass it has asked for is still to come.
+        wake: Arc::new(move || wake(&waker, Duration::ZERO)),
     };
     let mut shell = Shell {
         app: App::new(start, &ctx),
@@ -61,6 +62,10 @@ pub fn run(args: &Args, screen: &Screen) -> Result<(), String> {
         screen,
         is_told: false,
     };
+    let event_loop = EventLoop::<Wake>::with_user_event()
+        .build()
+        .map_err(|error| plain(&error))?;
+    proxy.get_or_init(|| event_loop.create_proxy());
     event_loop
         .run_app(&mut shell)
         .map_err(|error| plain(&error))?;
@@ -71,11 +76,15 @@ pub fn run(args: &Args, screen: &Screen) -> Result<(), String> {
 }
 
 /// Lets any thread ask for a frame.
-fn wake_by(ctx: &Context, proxy: EventLoopProxy<Wake>) {
-    ctx.set_request_repaint_callback(move |info| {
+fn wake_by(ctx: &Context, proxy: Arc<OnceLock<EventLoopProxy<Wake>>>) {
+    ctx.set_request_repaint_callback(move |info| wake(&proxy, info.delay));
+}
+
+fn wake(proxy: &OnceLock<EventLoopProxy<Wake>>, delay: Duration) {
+    if let Some(proxy) = proxy.get() {
         // A loop that has ended needs no frame.
-        let _ = proxy.send_event(Wake(info.delay));
-    });
+        let _ = proxy.send_event(Wake(delay));
+    }
 }
 
 struct Shell<'a> {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 use app::cli::args::Args;
@@ -21,6 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 pub struct Driver {
     pub harness: Harness<'static, Option<App>>,
     pub folder: TempDir,
+    wakes: Arc<AtomicU32>,
 }
 
 #[derive(Debug)]
@@ -59,31 +61,51 @@ impl Driver {
         let words = ["ivview", "--adapter", "software"].into_iter();
         let args = Args::parse_from(words.chain(arguments.iter().copied()));
         let config_path = Some(folder.path().join("config").join("ivview.json"));
-        let start = Start {
-            args,
-            device: Device::begin(AdapterChoice::Software),
-            since: Instant::now(),
-            config_path,
-        };
-        let mut start = Some(start);
+        let since = Instant::now();
+        let wakes = Arc::new(AtomicU32::new(0));
+        let counted = Arc::clone(&wakes);
+        let mut start = Some((args, config_path));
         let harness = Harness::builder()
             .with_size(vec2(1300.0, 640.0))
             .with_step_dt(1.0 / 60.0)
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
                     let ctx = ui.ctx().clone();
-                    let begin = || App::new(start.take().unwrap(), &ctx);
+                    let begin = || {
+                        let (args, config_path) = start.take().unwrap();
+                        let (waker, wakes) = (ctx.clone(), Arc::clone(&wakes));
+                        let start = Start {
+                            args,
+                            device: Device::begin(AdapterChoice::Software),
+                            since,
+                            config_path,
+                            wake: Arc::new(move || {
+                                wakes.fetch_add(1, Ordering::Relaxed);
+                                waker.request_repaint();
+                            }),
+                        };
+                        App::new(start, &ctx)
+                    };
                     app.get_or_insert_with(begin).show(ui);
                 },
                 None,
             );
-        let mut driver = Self { harness, folder };
+        let mut driver = Self {
+            harness,
+            folder,
+            wakes: counted,
+        };
         driver.settle();
         driver
     }
 
     pub fn app(&mut self) -> &mut App {
         self.harness.state_mut().as_mut().unwrap()
+    }
+
+    /// How often a thread has asked for a pass.
+    pub fn wakes(&self) -> u32 {
+        self.wakes.load(Ordering::Relaxed)
     }
 
     /// Waits until nothing is being read and the picture is sharp.
@@ -202,8 +224,7 @@ impl Driver {
 
     /// Does what a menu's dialog would do with this answer.
     pub fn answer(&mut self, question: app::ui::Question, path: &Path) {
-        let ctx = self.harness.ctx.clone();
-        self.app().answered(question, path, &ctx);
+        self.app().answered(question, path);
         self.settle();
     }
 

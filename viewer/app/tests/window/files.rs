@@ -1,6 +1,7 @@
 //! Files that come, change, break and go out.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use app::ui::Question;
 use egui::PointerButton;
@@ -27,6 +28,7 @@ fn redness(driver: &mut Driver) -> (u8, u8) {
 fn a_change_is_shown_from_the_same_place_and_a_broken_one_is_not() {
     let mut driver = Driver::with_text(&cube("1 0 0"));
     let path = driver.folder.path().join("model.iv");
+    assert_eq!(driver.app().counters.pictures, 1);
     let (from, to) = (driver.place(0.5, 0.5), driver.place(0.55, 0.5));
     driver.drag(from, to, PointerButton::Primary);
     let view = driver.app().navigator.unwrap().view;
@@ -65,6 +67,20 @@ fn a_change_is_shown_from_the_same_place_and_a_broken_one_is_not() {
     let (red, green) = redness(&mut driver);
     assert!(red > 100 && green > 100);
     assert_eq!(driver.app().navigator.unwrap().view, view);
+}
+
+#[test]
+fn a_first_file_that_is_broken_is_watched() {
+    let mut driver = Driver::with_text("#X3D V3.0 utf8\nShape { }\n");
+    assert!(driver.app().model.is_none());
+    let (path, wakes) = (driver.folder.path().join("model.iv"), driver.wakes());
+    std::fs::write(&path, cube("1 1 0")).unwrap();
+    let start = Instant::now();
+    while driver.wakes() == wakes {
+        assert!(start.elapsed() < Duration::from_secs(10), "nobody noticed");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    driver.until("it is shown", |app| app.model.is_some());
 }
 
 #[test]
