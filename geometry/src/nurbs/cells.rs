@@ -8,10 +8,14 @@
 use std::collections::{BTreeMap, HashMap};
 
 use glam::DVec2;
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
 
 use super::outline::Outline;
 use super::{COINCIDENT, MAX_TRIM_CUTS, NurbsError};
+
+/// Finds a point's triangle in logarithmic time.
+type Triangles =
+    ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
 /// The polygons along a grid. Points are numbered: first the corners of the grid, `u` fastest, then
 /// the others.
@@ -61,6 +65,15 @@ impl Lattice<'_> {
             None => DVec2::new(self.u[point % self.u.len()], self.v[point / self.u.len()]),
         }
     }
+}
+
+/// A number without order: neighbours are far apart. The finalizer of SplitMix64 (Steele, Lea and
+/// Flood 2014), which maps no two numbers to one.
+fn scattered(number: u32) -> u64 {
+    let mut z = u64::from(number).wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
 }
 
 /// The line at exactly `t`.
@@ -116,6 +129,9 @@ impl Cuts {
         for cell in cuts.cells.values_mut() {
             cell.points.sort_unstable();
             cell.points.dedup();
+            // Along a curve each point may undo most of the triangles of those before it; in an
+            // order that knows nothing of places it undoes a few.
+            cell.points.sort_by_key(|&point| scattered(point));
         }
         Ok(cuts)
     }
@@ -206,7 +222,7 @@ impl Cuts {
         };
         let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
         let corners = corners.map(|(i, j)| lattice.corner(i, j));
-        let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+        let mut cdt = Triangles::new();
         let mut number_of = Vec::new();
         let mut handle_of = BTreeMap::new();
         for &number in corners.iter().chain(&cell.points) {
@@ -239,7 +255,7 @@ impl Cuts {
 /// The triangles that are kept. Those that no piece parts are alike, so only the largest of them is
 /// asked for; with `each`, every one is.
 fn kept(
-    cdt: &ConstrainedDelaunayTriangulation<Point2<f64>>,
+    cdt: &Triangles,
     number_of: &[u32],
     each: bool,
     mut keeps: impl FnMut([u32; 3]) -> Result<bool, NurbsError>,

@@ -263,3 +263,27 @@ fn wrong_loops_cost_no_more_than_their_surface() {
     let refused = surface.triangles(&fineness, (&[], &[]), &[line(zigzag)]);
     assert_eq!(refused.err(), Some(NurbsError::TrimTooIntricate));
 }
+
+/// A hole. Inserted along the curve, each of its points undoes the triangles of all those before it:
+/// minutes.
+#[test]
+fn a_long_spiral_takes_no_longer_than_a_circle() {
+    let turn = |k: u32| {
+        let (share, radius) = (f64::from(k) / 60_000.0, 0.45);
+        let direction = DVec2::from_angle(1.8 * PI * share);
+        DVec2::splat(0.5) + direction * radius * (0.02 + 0.98 * share)
+    };
+    let points: Vec<DVec2> = (0..60_000).rev().map(turn).collect();
+    let next = points.iter().cycle().skip(1);
+    let doubled: f64 = points.iter().zip(next).map(|(p, q)| p.perp_dot(*q)).sum();
+    let spiral = TrimLoop {
+        pieces: vec![TrimPiece::Line(points)],
+    };
+    let start = std::time::Instant::now();
+    let mesh = sheet(0.0)
+        .triangles(&chord(0.05), (&[], &[]), &[spiral])
+        .unwrap();
+    let took = start.elapsed();
+    assert!((area(&mesh) - 16.0 * (1.0 + doubled / 2.0)).abs() < 1e-6);
+    assert!(took.as_secs() < 15, "{took:?}");
+}
