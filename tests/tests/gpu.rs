@@ -9,6 +9,7 @@ mod gpu {
     mod far;
     mod golden;
     mod mask;
+    mod occlusion;
     mod shading;
     mod shadows;
     mod techniques;

@@ -12,7 +12,9 @@ mod surface;
 
 use geometry::bounds::Aabb;
 use glam::DAffine3;
-use scenegraph::scene::{EnvironmentId, Faces, MaterialId, MeshId, Scene, TextureId, Topology};
+use scenegraph::scene::{
+    EnvironmentId, Faces, MaterialId, Mesh, MeshId, Scene, TextureId, Topology,
+};
 
 pub use edits::{Edits, FaceEdit, LightEdit};
 pub use lights::{LightShape, SpotFade, WorldLight, world_lights};
@@ -29,6 +31,8 @@ pub struct Object {
     pub instance: u32,
     /// What is drawn.
     pub mesh: MeshId,
+    /// Triangles, segments or points of it.
+    pub primitives: u32,
     /// Index into [`Content::surfaces`].
     pub surface: u32,
     /// The texture shown, if any.
@@ -98,6 +102,7 @@ impl Content {
             content.objects.push(Object {
                 instance: u32::try_from(i).unwrap_or(u32::MAX),
                 mesh: instance.mesh,
+                primitives: primitive_count(mesh),
                 surface: surfaces.index_of(scene, instance.material, instance.environment),
                 texture,
                 look,
@@ -136,6 +141,15 @@ impl Content {
         self.objects
             .partition_point(|object| !object.look.is_transparent)
     }
+}
+
+fn primitive_count(mesh: &Mesh) -> u32 {
+    let corners = match mesh.topology {
+        Topology::Triangles => 3,
+        Topology::Lines => 2,
+        Topology::Points => 1,
+    };
+    u32::try_from(mesh.indices.len() / corners).unwrap_or(u32::MAX)
 }
 
 fn light_sets(scene: &Scene) -> Vec<Vec<u32>> {

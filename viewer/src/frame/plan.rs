@@ -46,8 +46,12 @@ pub struct VolumeDraw {
 /// What a pass does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PassKind {
-    /// Draws depth alone, for shadows that must be known before the first light.
-    Depth,
+    /// Draws depth alone, for what must be known before the first light: shadows, or what lies
+    /// behind.
+    Depth {
+        /// Nothing was drawn before it.
+        begins: bool,
+    },
     /// Emission and ambient light together with the first light.
     First {
         /// Index into [`Plan::lights`].
@@ -116,6 +120,8 @@ impl Pass {
 pub enum SkipReason {
     /// Objects outside of the view.
     OutOfView,
+    /// Objects that lie behind others.
+    Occluded,
     /// Objects that no light reaches, in a pass of a light.
     Unlit,
     /// Objects that are not in the light's scope.
@@ -141,6 +147,7 @@ impl SkipReason {
     pub fn name(self) -> &'static str {
         match self {
             Self::OutOfView => "object out of view",
+            Self::Occluded => "object behind others",
             Self::Unlit => "object not lit",
             Self::OutOfScope => "object out of the light's scope",
             Self::OutOfReach => "object out of the light's reach",
@@ -183,7 +190,7 @@ impl Plan {
                 line.push_str("; ");
             }
             let _ = match pass.kind {
-                PassKind::Depth => write!(line, "depth"),
+                PassKind::Depth { .. } => write!(line, "depth"),
                 PassKind::First { light: None, .. } => write!(line, "first"),
                 PassKind::First {
                     light: Some(light), ..

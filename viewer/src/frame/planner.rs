@@ -27,15 +27,18 @@ pub struct Planner<'a> {
     is_visible: Vec<bool>,
     pub(super) lights: Vec<WorldLight>,
     headlight: Option<u32>,
+    tests_occlusion: bool,
 }
 
-/// Plans a frame. `near` is the distance of the near plane of a perspective.
+/// Plans a frame. `near` is the distance of the near plane of a perspective. With
+/// `tests_occlusion` it begins with a pass for the depth in any case.
 pub fn plan(
     content: &Content,
     view: &View,
     region: &Region,
     near: f64,
     settings: &Settings,
+    tests_occlusion: bool,
 ) -> Plan {
     let frustum = Frustum::new(view, region.aspect);
     let mut lights = content.lights.clone();
@@ -62,6 +65,7 @@ pub fn plan(
         frustum,
         lights,
         headlight,
+        tests_occlusion,
     };
     planner.plan()
 }
@@ -93,7 +97,11 @@ impl Planner<'_> {
         let first = needed.iter().position(|need| !need.casts).unwrap_or(0);
         let mut passes = Vec::new();
         if needed.is_empty() {
-            passes.push(self.first(None, ShadowLookup::None, false, false));
+            if self.tests_occlusion {
+                passes.push(self.depth());
+            }
+            let has_depth = self.tests_occlusion;
+            passes.push(self.first(None, ShadowLookup::None, has_depth, false));
         } else {
             self.first_passes(needed.remove(first), &mut passes);
         }
@@ -178,7 +186,8 @@ impl Planner<'_> {
         let kind = shadow_pass.as_ref().map(|pass| pass.kind);
         let has_volumes = matches!(kind, Some(PassKind::Volumes { .. }));
         // A map is made from the scene; volumes and rays ask what is seen.
-        let has_depth = has_volumes || matches!(kind, Some(PassKind::Rays { .. }));
+        let has_rays = matches!(kind, Some(PassKind::Rays { .. }));
+        let has_depth = has_volumes || has_rays || self.tests_occlusion;
         if has_depth {
             passes.push(self.depth());
         }
@@ -198,7 +207,7 @@ impl Planner<'_> {
             draws.add(index, object, key, Pixels::All);
         }
         Pass {
-            kind: PassKind::Depth,
+            kind: PassKind::Depth { begins: true },
             draws: draws.list,
             volumes: Vec::new(),
             scissor: None,

@@ -69,6 +69,18 @@ pub enum Headlight {
     On,
 }
 
+/// Whether objects are left out that lie behind others. The picture is the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Occlusion {
+    /// Where it pays.
+    #[default]
+    Auto,
+    /// Never.
+    Off,
+    /// In every picture.
+    On,
+}
+
 /// What a user may choose about a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -85,6 +97,8 @@ pub struct Settings {
     /// `n . p + d > 0` is cut away, with n of unit length; what is cut away still throws its
     /// shadow.
     pub section: Option<DVec4>,
+    /// Whether objects are left out that lie behind others.
+    pub occlusion: Occlusion,
     /// What is drawn over the picture.
     pub overlay: Overlay,
 }
@@ -98,6 +112,7 @@ impl Default for Settings {
             headlight: Headlight::WhenAlone,
             allows_z_pass: true,
             section: None,
+            occlusion: Occlusion::Auto,
             overlay: Overlay::default(),
         }
     }

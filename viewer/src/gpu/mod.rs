@@ -6,6 +6,7 @@ mod compute;
 mod device;
 mod frame_data;
 mod geometry;
+mod occlusion;
 mod overlay;
 mod pipeline_flat;
 mod pipeline_key;

@@ -34,7 +34,7 @@ pub(super) fn surface_key(
     samples: u32,
 ) -> PipelineKey {
     let stage = match pass.kind {
-        PassKind::Depth => Stage::Depth,
+        PassKind::Depth { .. } => Stage::Depth,
         PassKind::First {
             has_depth: true, ..
         } => Stage::FirstAtDepth,
@@ -167,7 +167,7 @@ impl Recorder<'_> {
             PassKind::Rays { light } => self.rays(encoder, light),
             PassKind::First { light, .. } => self.surfaces(encoder, pass, light.unwrap_or(0)),
             PassKind::Light { light, .. } => self.surfaces(encoder, pass, light),
-            PassKind::Depth | PassKind::Transparent => self.surfaces(encoder, pass, 0),
+            PassKind::Depth { .. } | PassKind::Transparent => self.surfaces(encoder, pass, 0),
         }
     }
 
@@ -223,14 +223,19 @@ impl Recorder<'_> {
         let store = wgpu::StoreOp::Store;
         let begins = matches!(
             pass.kind,
-            PassKind::Depth
+            PassKind::Depth { begins: true }
                 | PassKind::First {
                     has_depth: false,
                     ..
                 }
         );
-        let depth = begins.then_some(wgpu::Operations {
-            load: wgpu::LoadOp::Clear(0.0),
+        let goes_on = pass.kind == PassKind::Depth { begins: false };
+        let depth = (begins || goes_on).then_some(wgpu::Operations {
+            load: if begins {
+                wgpu::LoadOp::Clear(0.0)
+            } else {
+                wgpu::LoadOp::Load
+            },
             store,
         });
         let load = match pass.kind {
@@ -240,9 +245,9 @@ impl Recorder<'_> {
             _ if begins => wgpu::LoadOp::Clear(0),
             _ => wgpu::LoadOp::Load,
         };
-        let writes_stencil = begins || matches!(pass.kind, PassKind::Light { .. });
+        let writes_stencil = begins || goes_on || matches!(pass.kind, PassKind::Light { .. });
         let stencil = writes_stencil.then_some(wgpu::Operations { load, store });
-        let has_color = pass.kind != PassKind::Depth;
+        let has_color = !matches!(pass.kind, PassKind::Depth { .. });
         let mut render_pass = self.begin(encoder, "surfaces", has_color, depth, stencil, light);
         let mut bound = Bound::default();
         let mut report = PassReport::default();

@@ -14,6 +14,7 @@ use super::compute::{ComputedVolumes, Extractor};
 use super::device::{Gpu, GpuError};
 use super::frame_data::{self, FrameData};
 use super::geometry::Geometry;
+use super::occlusion::OcclusionTest;
 use super::overlay::{self, OverlayBuffers};
 use super::pipeline_key::{PipelineKey, VolumePart};
 use super::pipelines::{PipelineCounts, Pipelines};
@@ -27,6 +28,7 @@ use super::textures::Textures;
 use super::volumes::VolumeCache;
 use crate::content::{Content, Edits, LightShape, WorldLight};
 use crate::frame::{self, Extraction, PassKind, Plan, Settings, Shadows, VolumeMethod};
+use crate::shader::Frame;
 use crate::texture::Images;
 use crate::view::{DepthRange, Region, View};
 
@@ -41,6 +43,8 @@ pub struct FrameReport {
     pub compile: Duration,
     /// Writing numbers and recording commands.
     pub encode: Duration,
+    /// Drawing what was seen last, and finding out what lies behind it.
+    pub occlusion: Duration,
     /// Waiting for the device.
     pub draw: Duration,
     /// Shaders, pipelines and hits of this frame alone.
@@ -85,6 +89,7 @@ pub struct Renderer {
     /// The stencil of one sample a pixel, to read.
     pub(super) stencil: Option<wgpu::BindGroup>,
     pub(super) overlay: OverlayBuffers,
+    occlusion: OcclusionTest,
     scene: Arc<Scene>,
     /// Time taken to upload the scene.
     pub upload_time: Duration,
@@ -132,6 +137,7 @@ impl Renderer {
             rays: None,
             stencil: None,
             overlay: OverlayBuffers::default(),
+            occlusion: OcclusionTest::default(),
             scene,
             upload_time: start.elapsed(),
         })
@@ -150,6 +156,7 @@ impl Renderer {
         self.volumes = VolumeCache::default();
         self.computed.clear();
         self.rays = None;
+        self.occlusion.forget();
     }
 
     /// Shows textures from the next frame on: those that `images` has.
@@ -200,7 +207,11 @@ impl Renderer {
         let shown = self.content.objects.iter().filter(|o| !o.is_hidden);
         let boxes: Vec<_> = shown.map(|o| o.bounds).collect();
         let range = DepthRange::of(view, region.aspect, &boxes);
-        let plan = frame::plan(&self.content, view, region, range.near, settings);
+        let content = &self.content;
+        let size = (width, height);
+        let tests_occlusion = self.occlusion.is_wanted(content, settings, region, size);
+        let near = range.near;
+        let mut plan = frame::plan(content, view, region, near, settings, tests_occlusion);
         report.plan = start.elapsed();
 
         let start = Instant::now();
@@ -234,9 +245,18 @@ impl Renderer {
             view,
             &self.far_planes(&plan),
         );
-        let commands = self.record(&plan, view, region, settings, &mut report);
-        self.gpu.queue.submit([commands]);
         report.encode = start.elapsed();
+        let scenery = (view, region, settings);
+        if tests_occlusion {
+            let start = Instant::now();
+            self.leave_out_hidden(&mut plan, scenery, &numbers, &mut report)?;
+            report.occlusion = start.elapsed();
+        }
+
+        let start = Instant::now();
+        let commands = self.record(&plan, scenery, &mut report);
+        self.gpu.queue.submit([commands]);
+        report.encode += start.elapsed();
 
         let start = Instant::now();
         self.gpu
@@ -427,29 +447,64 @@ impl Renderer {
         }
     }
 
+    /// Draws the depth of what was seen last, asks what lies behind it, and leaves that out of the
+    /// plan, whose first pass is done then.
+    fn leave_out_hidden(
+        &mut self,
+        plan: &mut Plan,
+        scenery: (&View, &Region, &Settings),
+        numbers: &Frame,
+        report: &mut FrameReport,
+    ) -> Result<(), GpuError> {
+        let objects = plan.objects_drawn();
+        if !plan.part_depth(self.occlusion.hidden()) {
+            return Ok(());
+        }
+        let mut encoder = self.encoder();
+        let mut occlusion = std::mem::take(&mut self.occlusion);
+        if let Some(recorder) = self.recorder(plan, scenery) {
+            let depth = recorder.pass(&mut encoder, &plan.passes[0]);
+            report.passes.push(depth);
+            let seen = (scenery.0, numbers);
+            let (targets, content) = (recorder.targets, &self.content);
+            occlusion.ask(&self.gpu, targets, content, &objects, seen, encoder)?;
+        }
+        self.occlusion = occlusion;
+        plan.leave_out(self.occlusion.hidden());
+        Ok(())
+    }
+
+    fn encoder(&self) -> wgpu::CommandEncoder {
+        let descriptor = wgpu::CommandEncoderDescriptor::default();
+        self.gpu.device.create_command_encoder(&descriptor)
+    }
+
+    fn recorder<'r>(
+        &'r self,
+        plan: &'r Plan,
+        (view, region, settings): (&'r View, &'r Region, &'r Settings),
+    ) -> Option<Recorder<'r>> {
+        self.targets.as_ref().map(|targets| Recorder {
+            renderer: self,
+            targets,
+            view,
+            region,
+            settings,
+            plan,
+        })
+    }
+
+    /// All passes but those that the report has already.
     fn record(
         &self,
         plan: &Plan,
-        view: &View,
-        region: &Region,
-        settings: &Settings,
+        scenery: (&View, &Region, &Settings),
         report: &mut FrameReport,
     ) -> wgpu::CommandBuffer {
-        let mut encoder = self
-            .gpu
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        if let Some(targets) = &self.targets {
-            let recorder = Recorder {
-                renderer: self,
-                targets,
-                view,
-                region,
-                settings,
-                plan,
-            };
+        let mut encoder = self.encoder();
+        if let Some(recorder) = self.recorder(plan, scenery) {
             recorder.background(&mut encoder);
-            for pass in &plan.passes {
+            for pass in plan.passes.iter().skip(report.passes.len()) {
                 report.passes.push(recorder.pass(&mut encoder, pass));
             }
             recorder.overlay(&mut encoder);

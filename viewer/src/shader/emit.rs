@@ -52,6 +52,18 @@ pub fn emit_present(samples: u32) -> String {
     // A texture of one sample has a mip level in its place, and only level 0.
 }
 
+/// The text of the test for what lies behind, for images of so many samples a pixel.
+pub fn emit_occlusion(samples: u32) -> String {
+    let texture = if samples > 1 {
+        "texture_depth_multisampled_2d"
+    } else {
+        "texture_depth_2d"
+    };
+    include_str!("wgsl/occlusion.wgsl")
+        .replace("DEPTH_TYPE", texture)
+        .replace("SAMPLES", &samples.to_string())
+}
+
 /// The text of the rays to a light, for images of so many samples a pixel.
 pub fn emit_rays(samples: u32) -> String {
     let (texture, places) = if samples > 1 {

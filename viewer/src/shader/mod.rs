@@ -10,6 +10,8 @@ mod layout;
 #[cfg(test)]
 mod tests;
 
-pub use emit::{BACKGROUND, EXTRACT, MAP, OVERLAY, TYPES, VOLUME, emit, emit_present, emit_rays};
+pub use emit::{
+    BACKGROUND, EXTRACT, MAP, OVERLAY, TYPES, VOLUME, emit, emit_occlusion, emit_present, emit_rays,
+};
 pub use key::{Contribution, LightForm, LightKey, Shade, ShaderKey, ShadowLookup, SpotForm};
 pub use layout::{Frame, Instance, Light, PassValues, Surface, layouts};

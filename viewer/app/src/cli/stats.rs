@@ -125,6 +125,7 @@ impl Told<'_> {
             "shadows": ms(report.shadows),
             "compile": ms(report.compile),
             "encode": ms(report.encode),
+            "occlusion": ms(report.occlusion),
             "draw": ms(report.draw),
             "readback": ms(self.shown.readback_time),
             "png": ms(times.png),
@@ -223,7 +224,7 @@ impl Told<'_> {
 
 fn pass(pass: &Pass, report: PassReport) -> Value {
     let (kind, light) = match pass.kind {
-        PassKind::Depth => ("depth", None),
+        PassKind::Depth { .. } => ("depth", None),
         PassKind::First { light, .. } => ("first", light),
         PassKind::Volumes { light } => ("volumes", Some(light)),
         PassKind::Map { light } => ("map", Some(light)),

@@ -89,6 +89,7 @@ impl App {
                     row("Plan", ms(report.plan));
                     row("Shadows", ms(report.shadows));
                     row("Encode", ms(report.encode));
+                    row("Occlusion", ms(report.occlusion));
                     row("Draw", ms(report.draw));
                 }
                 for pass in self.passes() {
@@ -114,7 +115,7 @@ impl App {
                 name.map_or_else(|| format!("light {light}"), str::to_owned)
             };
             let what = match pass.kind {
-                PassKind::Depth => "depth".to_owned(),
+                PassKind::Depth { .. } => "depth".to_owned(),
                 PassKind::First { light: None, .. } => "ambient".to_owned(),
                 PassKind::First { light: Some(i), .. } => format!("ambient and {}", light(i)),
                 PassKind::Volumes { light: i } => format!("volumes of {}", light(i)),

@@ -38,7 +38,11 @@ impl App {
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if let Some((_, report)) = &self.canvas.last {
-                    let took = report.plan + report.shadows + report.encode + report.draw;
+                    let took = report.plan
+                        + report.shadows
+                        + report.encode
+                        + report.occlusion
+                        + report.draw;
                     ui.weak(format!("{:.1} ms", took.as_secs_f64() * 1e3));
                 }
                 if let Some(p) = self.canvas.below {
