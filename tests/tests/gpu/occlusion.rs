@@ -200,6 +200,15 @@ fn what_peeks_out_is_drawn_and_lights_of_hidden_rooms_are_not() {
     assert_eq!(some.plan.skipped_lights, [(1, reason)]);
     assert_eq!(differing(&all, &some), 0);
 
+    // A line that lies behind the wall, but is thicker than what the wall hides of it.
+    let line = "Separator { DrawStyle { lineWidth 40 } Coordinate3 { point [ -1 2.7 -1, \
+                1 2.7 -1 ] } IndexedLineSet { coordIndex [ 0, 1, -1 ] } }\n";
+    let all = shoot(&[wall, line], Occlusion::Off);
+    let some = shoot(&[wall, line], Occlusion::On);
+    assert_eq!((hidden(&some.plan), differing(&all, &some)), (0, 0));
+    let thin = shoot(&[wall, &line.replace("40", "1")], Occlusion::On);
+    assert_eq!(hidden(&thin.plan), 1);
+
     // Nobody asks where it cannot pay.
     let auto = shoot(&[wall, &behind], Occlusion::Auto);
     let off = shoot(&[wall, &behind], Occlusion::Off);
