@@ -209,6 +209,13 @@ fn what_peeks_out_is_drawn_and_lights_of_hidden_rooms_are_not() {
     let thin = shoot(&[wall, &line.replace("40", "1")], Occlusion::On);
     assert_eq!(hidden(&thin.plan), 1);
 
+    // A line in the wall, so little that it is drawn before it.
+    let line = "Separator { Coordinate3 { point [ -1 0.1 0.0489, 1 0.1 0.0489 ] } \
+                IndexedLineSet { coordIndex [ 0, 1, -1 ] } }\n";
+    let all = shoot(&[wall, line], Occlusion::Off);
+    assert!(differing(&all, &shoot(&[wall], Occlusion::Off)) > 10);
+    assert_eq!(differing(&all, &shoot(&[wall, line], Occlusion::On)), 0);
+
     // Nobody asks where it cannot pay.
     let auto = shoot(&[wall, &behind], Occlusion::Auto);
     let off = shoot(&[wall, &behind], Occlusion::Off);
