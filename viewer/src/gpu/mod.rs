@@ -12,6 +12,7 @@ mod pipeline_flat;
 mod pipeline_key;
 mod pipeline_make;
 mod pipelines;
+mod prepare;
 mod rays;
 mod readback;
 mod record;

@@ -4,7 +4,6 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::DVec4;
 use rustc_hash::FxHashMap;
 use scenegraph::scene::Scene;
 
@@ -15,19 +14,17 @@ use super::device::{Gpu, GpuError};
 use super::frame_data::{self, FrameData};
 use super::geometry::Geometry;
 use super::occlusion::OcclusionTest;
-use super::overlay::{self, OverlayBuffers};
-use super::pipeline_key::{PipelineKey, VolumePart};
+use super::overlay::OverlayBuffers;
 use super::pipelines::{PipelineCounts, Pipelines};
-use super::rays::{Hierarchy, Rays};
+use super::rays::Rays;
 use super::readback;
-use super::record::{Recorder, culls, surface_key};
-use super::record_shadows::volume_parts;
+use super::record::Recorder;
 use super::shadow_map::ShadowMap;
 use super::targets::Targets;
 use super::textures::Textures;
 use super::volumes::VolumeCache;
-use crate::content::{Content, Edits, LightShape, WorldLight};
-use crate::frame::{self, Extraction, PassKind, Plan, Settings, Shadows, VolumeMethod};
+use crate::content::{Content, Edits, LightShape};
+use crate::frame::{self, Plan, Settings};
 use crate::shader::Frame;
 use crate::texture::Images;
 use crate::view::{DepthRange, Region, View};
@@ -70,10 +67,10 @@ pub struct PassReport {
 pub struct Renderer {
     /// The device.
     pub gpu: Gpu,
-    layouts: Layouts,
+    pub(super) layouts: Layouts,
     pub(super) pipelines: Pipelines,
     pub(super) frame_data: FrameData,
-    targets: Option<Targets>,
+    pub(super) targets: Option<Targets>,
     pub(super) content: Content,
     pub(super) geometry: Geometry,
     pub(super) textures: Textures,
@@ -81,16 +78,16 @@ pub struct Renderer {
     pub(super) nothing: wgpu::BindGroup,
     pub(super) casters: Option<Casters>,
     pub(super) volumes: VolumeCache,
-    extractor: Option<Extractor>,
+    pub(super) extractor: Option<Extractor>,
     /// By light, with the shape it had.
-    computed: FxHashMap<u32, (LightShape, ComputedVolumes)>,
+    pub(super) computed: FxHashMap<u32, (LightShape, ComputedVolumes)>,
     pub(super) maps: FxHashMap<u32, ShadowMap>,
     pub(super) rays: Option<Rays>,
     /// The stencil of one sample a pixel, to read.
     pub(super) stencil: Option<wgpu::BindGroup>,
     pub(super) overlay: OverlayBuffers,
     occlusion: OcclusionTest,
-    scene: Arc<Scene>,
+    pub(super) scene: Arc<Scene>,
     /// Time taken to upload the scene.
     pub upload_time: Duration,
 }
@@ -299,152 +296,6 @@ impl Renderer {
             binding::group(&self.gpu.device, "stencil", layout, vec![view])
         });
         self.targets = Some(targets);
-    }
-
-    fn prepare_shadows(&mut self, plan: &Plan, view: &View, settings: &Settings) {
-        self.maps.clear();
-        for pass in &plan.passes {
-            match (pass.kind, settings.shadows) {
-                (PassKind::Volumes { light }, Shadows::Volumes { method, extraction }) => {
-                    let world_light = &plan.lights[light as usize];
-                    self.prepare_volumes(light, world_light, method, extraction);
-                }
-                (PassKind::Map { light }, Shadows::Map { size }) => {
-                    let map = ShadowMap::new(
-                        &self.gpu,
-                        &self.layouts,
-                        &self.content,
-                        &plan.lights[light as usize],
-                        view.eye,
-                        size,
-                    );
-                    self.maps.insert(light, map);
-                }
-                (PassKind::Rays { .. }, _) => self.prepare_rays(),
-                _ => {}
-            }
-        }
-    }
-
-    fn prepare_volumes(
-        &mut self,
-        light: u32,
-        world_light: &WorldLight,
-        method: VolumeMethod,
-        extraction: Extraction,
-    ) {
-        let (gpu, content) = (&self.gpu, &self.content);
-        let casters = self
-            .casters
-            .get_or_insert_with(|| Casters::upload(gpu, &self.scene, content));
-        let indexed = (light, world_light);
-        self.volumes
-            .prepare(gpu, &self.layouts, content, casters, indexed, method);
-        let computes = method == VolumeMethod::Silhouette
-            && match extraction {
-                Extraction::Auto => !gpu.is_software(),
-                Extraction::Cpu => false,
-                Extraction::Compute => true,
-            };
-        let is_layered = self
-            .volumes
-            .of(light)
-            .is_some_and(|volumes| volumes.layer_count() > 1);
-        if !computes || is_layered {
-            self.computed.remove(&light);
-            return;
-        }
-        let is_kept = self
-            .computed
-            .get(&light)
-            .is_some_and(|(shape, _)| *shape == world_light.shape);
-        if !is_kept {
-            let extractor = self.extractor.get_or_insert_with(|| Extractor::new(gpu));
-            let made = extractor.extract(gpu, &self.layouts.volumes, content, casters, world_light);
-            self.computed.insert(light, (world_light.shape, made));
-        }
-    }
-
-    fn prepare_rays(&mut self) {
-        let Some(targets) = &self.targets else {
-            return;
-        };
-        match &mut self.rays {
-            Some(rays) if rays.fits(targets) => {}
-            Some(rays) if rays.samples() == targets.samples => {
-                rays.refit(&self.gpu, &self.layouts, targets);
-            }
-            _ => {
-                let origin = self.content.bounds.center();
-                let hierarchy = Hierarchy::new(&self.scene, &self.content, origin);
-                self.rays = Some(Rays::new(&self.gpu, &self.layouts, &hierarchy, targets));
-            }
-        }
-    }
-
-    /// Where the volumes of each light end; zero where they do not.
-    fn far_planes(&self, plan: &Plan) -> Vec<DVec4> {
-        (0..plan.lights.len() as u32)
-            .map(|light| {
-                let volumes = self.volumes.of(light);
-                volumes
-                    .and_then(|volumes| volumes.far_plane)
-                    .unwrap_or_default()
-            })
-            .collect()
-    }
-
-    /// The volumes of a light that the device made, if it did.
-    pub(super) fn computed(&self, light: u32) -> Option<&ComputedVolumes> {
-        self.computed.get(&light).map(|(_, volumes)| volumes)
-    }
-
-    fn prepare_pipelines(&mut self, plan: &Plan, view: &View, settings: &Settings) {
-        let samples = settings.samples;
-        let mut keys = vec![PipelineKey::Present { samples }];
-        if settings.background_srgb[0] != settings.background_srgb[1] {
-            keys.push(PipelineKey::Background { samples });
-        }
-        for pass in &plan.passes {
-            for draw in &pass.draws {
-                let object = &self.content.objects[draw.objects.start as usize];
-                for &cull in culls(pass, object) {
-                    keys.push(surface_key(pass, object, draw, cull, samples));
-                }
-            }
-            let PassKind::Volumes { light } = pass.kind else {
-                if let PassKind::Map { .. } = pass.kind {
-                    keys.push(PipelineKey::Map);
-                }
-                continue;
-            };
-            let layers = self.volumes.of(light).map_or(1, |v| v.layer_count());
-            for part in volume_parts(pass, plan, view, self.computed(light).is_some()) {
-                keys.push(self.volume_key(part, layers > 1, samples));
-            }
-            if layers > 1 {
-                keys.push(PipelineKey::EndLayer { samples });
-                keys.push(PipelineKey::BeginLayer { samples });
-            }
-        }
-        keys.extend(overlay::keys(plan, view, settings, &self.gpu));
-        for key in keys {
-            self.pipelines.prepare(&self.gpu, &self.layouts, key);
-        }
-    }
-
-    pub(super) fn volume_key(
-        &self,
-        part: VolumePart,
-        is_layered: bool,
-        samples: u32,
-    ) -> PipelineKey {
-        PipelineKey::Volume {
-            part,
-            is_unclipped: part == VolumePart::ZPassSides && self.gpu.has_depth_clip_control,
-            is_layered,
-            samples,
-        }
     }
 
     /// Draws the depth of what was seen last, asks what lies behind it, and leaves that out of the
