@@ -3,6 +3,7 @@
 //! The archive stays in memory; nothing is written to disk. Its entries have paths below the
 //! archive's own path, as if it were a folder.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use iv_parser::Header;
@@ -131,6 +132,42 @@ fn last_part(name: &str) -> &str {
     name.rsplit('/').next().unwrap_or_default()
 }
 
+/// Why an input is not opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum OpenError {
+    /// It is an archive that takes a password, and there is none.
+    PasswordNeeded,
+    /// The password is not the archive's.
+    PasswordWrong,
+    /// In words.
+    Other(String),
+}
+
+impl fmt::Display for OpenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::PasswordNeeded => {
+                "the archive takes a password; give it with --password, --password-file or in \
+                 IVORY_PASSWORD"
+            }
+            Self::PasswordWrong => "the password does not open this archive",
+            Self::Other(why) => why,
+        })
+    }
+}
+
+impl From<String> for OpenError {
+    fn from(why: String) -> Self {
+        Self::Other(why)
+    }
+}
+
+impl From<OpenError> for String {
+    fn from(error: OpenError) -> Self {
+        error.to_string()
+    }
+}
+
 /// The model of an archive, and how many others could have been meant.
 ///
 /// It is a file whose beginning says that it is a model: one with a model's name before others,
@@ -140,7 +177,7 @@ fn last_part(name: &str) -> &str {
 /// # Errors
 ///
 /// In words, when there is none or it cannot be opened.
-pub fn model_in(archive: &Archive) -> Result<(&Entry, usize), String> {
+pub fn model_in(archive: &Archive) -> Result<(&Entry, usize), OpenError> {
     let has_ending = |entry: &Entry| {
         let ending = entry.name.rsplit_once('.').map_or("", |(_, ending)| ending);
         MODEL_ENDINGS
@@ -157,10 +194,8 @@ pub fn model_in(archive: &Archive) -> Result<(&Entry, usize), String> {
         }
         match archive.beginning(entry, BEGINNING) {
             Ok(bytes) if is_model(&bytes) => models.push(entry),
-            Err(Error::PasswordNeeded) => return Err(password_needed()),
-            Err(Error::PasswordWrong) => {
-                return Err("the password does not open this archive".to_owned());
-            }
+            Err(Error::PasswordNeeded) => return Err(OpenError::PasswordNeeded),
+            Err(Error::PasswordWrong) => return Err(OpenError::PasswordWrong),
             _ => {}
         }
     }
@@ -168,14 +203,8 @@ pub fn model_in(archive: &Archive) -> Result<(&Entry, usize), String> {
     match (&models[..], unmarked) {
         ([model, others @ ..], _) => Ok((model, others.len())),
         ([], Some(model)) => Ok((model, 0)),
-        ([], None) => Err("the archive holds no model".to_owned()),
+        ([], None) => Err("the archive holds no model".to_owned().into()),
     }
-}
-
-fn password_needed() -> String {
-    "the archive takes a password; give it with --password, --password-file or in \
-     IVORY_PASSWORD"
-        .to_owned()
 }
 
 /// Whether bytes begin as a model does, or as a stream that one may be packed in.

@@ -7,7 +7,7 @@ use scenegraph::{FileLoader, Graph, LoadError, Loader};
 use unpack::{Archive, Format};
 
 use super::access::Access;
-use super::archive::{ArchiveLoader, model_in};
+use super::archive::{ArchiveLoader, OpenError, model_in};
 use super::bytes::{self, Bytes};
 
 /// A model that was opened.
@@ -66,8 +66,8 @@ impl Loader for Files {
 ///
 /// # Errors
 ///
-/// In words, when there is no model to be had from it.
-pub fn open(path: &Path, access: &Access) -> Result<Opened, String> {
+/// When there is no model to be had from it.
+pub fn open(path: &Path, access: &Access) -> Result<Opened, OpenError> {
     let bytes = bytes::read(path)?;
     let packed_len = bytes.len() as u64;
     let mut opened = Opened {
@@ -86,7 +86,7 @@ pub fn open(path: &Path, access: &Access) -> Result<Opened, String> {
 }
 
 /// The model in an archive.
-fn in_archive(path: &Path, mut opened: Opened, access: &Access) -> Result<Opened, String> {
+fn in_archive(path: &Path, mut opened: Opened, access: &Access) -> Result<Opened, OpenError> {
     let bytes = std::mem::replace(&mut opened.bytes, Bytes::Heap(Vec::new()));
     let password = access.password.as_deref();
     let archive = Archive::open(bytes.into_vec()?, password, access.limits)

@@ -16,6 +16,8 @@ const RECENT: usize = 12;
 pub struct Config {
     /// Width and height of the window, points.
     pub window: [f32; 2],
+    /// The window's top left corner on the screens, pixels.
+    pub place: Option<[i32; 2]>,
     /// Whether it fills the screen.
     pub is_maximized: bool,
     /// Files that were opened, the last one first.
@@ -38,6 +40,7 @@ impl Default for Config {
     fn default() -> Self {
         Self {
             window: [1280.0, 800.0],
+            place: None,
             is_maximized: false,
             recent: Vec::new(),
             is_dark: true,
@@ -103,6 +106,7 @@ mod tests {
         let path = folder.path().join("deep").join("ivview.json");
         let mut config = Config {
             window: [640.0, 480.0],
+            place: Some([-1200, 30]),
             is_dark: false,
             background_srgb: Some([[0.25; 3], [1.0, 0.5, 0.0]]),
             ..Config::default()

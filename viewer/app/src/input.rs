@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use convert::command::access::Access;
+use convert::command::archive::OpenError;
 use convert::command::fonts;
 use convert::command::model::{self, Files, Opened};
 use convert::{ReadLimits, read_gltf};
@@ -35,13 +36,13 @@ pub struct Input {
 ///
 /// # Errors
 ///
-/// Why there is nothing to draw, in words.
+/// Why there is nothing to draw.
 pub fn read(
     path: &Path,
     args: &Args,
     access: &Access,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<Input, String> {
+) -> Result<Input, OpenError> {
     let start = Instant::now();
     let mut opened = model::open(path, access)?;
     if is_gltf(&opened.bytes) {
@@ -52,7 +53,7 @@ pub fn read(
     let read_time = start.elapsed();
     diagnostics.append(&mut graph.diagnostics);
     if model::is_unsupported(diagnostics) {
-        return Err("not shown: its format is not read".to_owned());
+        return Err("not shown: its format is not read".to_owned().into());
     }
     let start = Instant::now();
     if args.system_fonts {
@@ -79,7 +80,7 @@ fn gltf(
     opened: Opened,
     start: Instant,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Result<Input, String> {
+) -> Result<Input, OpenError> {
     let Opened {
         bytes,
         name,

@@ -8,6 +8,7 @@ use std::thread;
 use std::time::Instant;
 
 use convert::command::access::Access;
+use convert::command::archive::OpenError;
 use convert::command::messages::image_left_out;
 use convert::command::model;
 use iv_parser::Diagnostic;
@@ -79,7 +80,7 @@ pub enum Sent {
     /// All images, what is wrong with them, and what opens files. The last message.
     Images(Box<Images>, Vec<Diagnostic>, Box<model::Files>),
     /// There is no model: why, and what else is wrong with it. The last message.
-    Failed(String, Vec<Diagnostic>),
+    Failed(OpenError, Vec<Diagnostic>),
 }
 
 /// A model that is being read.
@@ -132,7 +133,7 @@ impl Loading {
             Ok(sent) => Some(sent),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => Some(Sent::Failed(
-                "reading stopped unexpectedly".to_owned(),
+                "reading stopped unexpectedly".to_owned().into(),
                 Vec::new(),
             )),
         }
@@ -179,7 +180,7 @@ impl Worker {
     fn read(
         &self,
         diagnostics: &mut Vec<Diagnostic>,
-    ) -> Result<Option<(Arc<Scene>, model::Files)>, String> {
+    ) -> Result<Option<(Arc<Scene>, model::Files)>, OpenError> {
         let access = Access::new(&self.args.search, &self.args.packed)?;
         let input = input::read(&self.path, &self.args, &access, diagnostics)?;
         if !self.send(Sent::Stage(Stage::Uploading)) {

@@ -144,7 +144,7 @@ fn read(
 ) -> Result<(Input, Images, Vec<Diagnostic>), String> {
     let mut diagnostics = Vec::new();
     let access = Access::new(&args.search, &args.packed);
-    let input = access.and_then(|access| input::read(path, args, &access, &mut diagnostics));
+    let input = access.and_then(|access| Ok(input::read(path, args, &access, &mut diagnostics)?));
     let input = input.map(|input| {
         times.read = input.read_time;
         times.resolve = input.resolve_time;

@@ -18,6 +18,7 @@ mod menu;
 mod messages;
 mod models;
 mod overlays;
+mod password;
 mod properties;
 mod select;
 mod state;
@@ -31,7 +32,10 @@ pub use measure::{Measure, Measured};
 pub use overlays::{Over, Section};
 pub use state::{App, Counters, Notice, Start};
 
+use std::sync::Arc;
+
 use egui::{CentralPanel, Frame, Panel, Ui};
+use egui_system_font_provider::SystemFontProvider;
 
 /// A line of text and room around it. Where the size followed from the contents, texts that come
 /// and go would change the picture's size, and it would be drawn twice at the start.
@@ -50,6 +54,7 @@ impl App {
             self.run(command, &ctx);
         }
         self.take_dropped(&ctx);
+        self.learn_letters(&ctx);
         bar(Panel::top("menu")).show(ui, |ui| {
             ui.take_available_height();
             self.menu_bar(ui);
@@ -72,7 +77,17 @@ impl App {
             .frame(Frame::NONE)
             .show(ui, |ui| self.canvas(ui));
         self.help_window(&ctx);
+        self.password_window(&ctx);
         self.remember();
+    }
+
+    /// Finds letters that the interface's own fonts lack, such as Chinese ones, in the fonts of the
+    /// computer. Listing those takes time that the first picture needs.
+    fn learn_letters(&mut self, ctx: &egui::Context) {
+        if !self.knows_all_letters && self.loading.is_none() {
+            self.knows_all_letters = true;
+            ctx.add_font_provider(Arc::new(SystemFontProvider::new()));
+        }
     }
 
     fn left_panel(&mut self, ui: &mut Ui) {

@@ -4,10 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
+use convert::command::archive::OpenError;
 use egui::Context;
 use iv_parser::Diagnostic;
 
 use super::overlays::Overlays;
+use super::password::Asked;
 use super::state::{App, Failure, LeftTab};
 use crate::cli::camera::Viewpoint;
 use crate::load::{Device, Loading, Sent};
@@ -72,7 +74,7 @@ impl App {
                         model.loader = Some(*files);
                     }
                 }
-                Sent::Failed(why, diagnostics) => self.take_failure(why, diagnostics),
+                Sent::Failed(why, diagnostics) => self.take_failure(&why, diagnostics),
             }
         }
         if let Some(watch) = &mut self.watch {
@@ -91,6 +93,7 @@ impl App {
             && self.navigator.is_some();
         self.failure = None;
         self.notice = None;
+        self.asked = None;
         self.watch = Watch::new(&model.files, Arc::clone(&self.wake));
         if !is_reload {
             self.camera = None;
@@ -127,7 +130,7 @@ impl App {
         })
     }
 
-    fn take_failure(&mut self, why: String, diagnostics: Vec<Diagnostic>) {
+    fn take_failure(&mut self, why: &OpenError, diagnostics: Vec<Diagnostic>) {
         let Some(loading) = self.loading.take() else {
             return;
         };
@@ -137,6 +140,7 @@ impl App {
             ""
         };
         self.fail(format!("{}: {why}{kept}", loading.path.display()));
+        self.asked = Asked::after(why, &loading.path);
         if self.model.is_none() {
             let file = std::slice::from_ref(&loading.path);
             self.watch = Watch::new(file, Arc::clone(&self.wake));

@@ -12,6 +12,7 @@ use super::canvas::Canvas;
 use super::dialogs::Dialogs;
 use super::measure::Measure;
 use super::overlays::{Over, Overlays};
+use super::password::Asked;
 use crate::cli::args::Args;
 use crate::cli::camera::Viewpoint;
 use crate::config::Config;
@@ -121,6 +122,8 @@ pub struct App {
     /// What the user was told last.
     pub notice: Option<Notice>,
     pub(super) dialogs: Dialogs,
+    pub(super) asked: Option<Asked>,
+    pub(super) knows_all_letters: bool,
     /// Counts.
     pub counters: Counters,
     pub(super) lost_in_a_row: u32,
@@ -189,6 +192,8 @@ impl App {
             shows_help: false,
             notice: None,
             dialogs: Dialogs::default(),
+            asked: None,
+            knows_all_letters: false,
             counters: Counters::default(),
             lost_in_a_row: 0,
             quits: false,
@@ -221,7 +226,7 @@ impl App {
     }
 
     /// Keeps what is to be remembered, when it has changed.
-    pub(super) fn remember(&mut self) {
+    pub fn remember(&mut self) {
         self.config.samples = Some(self.settings.samples);
         self.config.background_srgb = Some(self.settings.background_srgb);
         if let Some(navigator) = &self.navigator {

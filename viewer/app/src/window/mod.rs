@@ -12,9 +12,10 @@ use convert::command::messages;
 use egui::Context;
 use egui_winit::State;
 use winit::application::ApplicationHandler;
-use winit::dpi::LogicalSize;
+use winit::dpi::{LogicalSize, PhysicalPosition};
 use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::monitor::MonitorHandle;
 use winit::window::{Window, WindowId};
 
 use crate::cli::args::Args;
@@ -167,6 +168,17 @@ impl ApplicationHandler<Wake> for Shell<'_> {
         }
     }
 
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        // Not every system tells of moves.
+        if let Some(open) = &self.window
+            && !open.window.is_maximized()
+            && let Ok(place) = open.window.outer_position()
+        {
+            self.app.config.place = Some([place.x, place.y]);
+        }
+        self.app.remember();
+    }
+
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         if self.app.quits || self.failure.is_some() {
             event_loop.exit();
@@ -178,13 +190,30 @@ impl ApplicationHandler<Wake> for Shell<'_> {
     }
 }
 
+/// Whether a window at a place could be seen and moved: a screen may be gone.
+fn shows(monitor: &MonitorHandle, [x, y]: [i32; 2]) -> bool {
+    /// Pixels of a title bar that are to be on the screen.
+    const BAR: [i64; 2] = [100, 10];
+    let (from, size) = (monitor.position(), monitor.size());
+    let is_within = |at: i32, from: i32, length: u32, least: i64| {
+        let from = i64::from(from);
+        (from..=from + i64::from(length) - least).contains(&i64::from(at))
+    };
+    is_within(x, from.x, size.width, BAR[0]) && is_within(y, from.y, size.height, BAR[1])
+}
+
 impl Shell<'_> {
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Open, String> {
         let [width, height] = self.app.config.window;
-        let attributes = Window::default_attributes()
+        let mut attributes = Window::default_attributes()
             .with_title(self.app.title())
             .with_inner_size(LogicalSize::new(width, height))
             .with_maximized(self.app.config.is_maximized);
+        if let Some([x, y]) = self.app.config.place
+            && event_loop.available_monitors().any(|m| shows(&m, [x, y]))
+        {
+            attributes = attributes.with_position(PhysicalPosition::new(x, y));
+        }
         let window = event_loop
             .create_window(attributes)
             .map_err(|error| format!("the window could not be opened: {error}"))?;

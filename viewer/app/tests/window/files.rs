@@ -1,10 +1,11 @@
 //! Files that come, change, break and go out.
 
+use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use app::ui::Question;
-use egui::PointerButton;
+use egui::{Event, Key, PointerButton};
 use egui_kittest::kittest::Queryable;
 use viewer::texture::Images;
 
@@ -84,6 +85,39 @@ fn a_first_file_that_is_broken_is_watched() {
 }
 
 #[test]
+fn passwords_of_archives_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("models.ivz");
+    let mut archive = zip::ZipWriter::new(std::fs::File::create(&path).unwrap());
+    let options =
+        zip::write::SimpleFileOptions::default().with_aes_encryption(zip::AesMode::Aes256, "ivory");
+    archive.start_file("cube.iv", options).unwrap();
+    archive.write_all(cube("1 0 0").as_bytes()).unwrap();
+    archive.finish().unwrap();
+
+    let mut driver = Driver::begin(folder, &[&path.display().to_string()]);
+    for (password, next) in [("guess", "That was not"), ("ivory", "")] {
+        assert!(driver.app().model.is_none());
+        assert_eq!(driver.harness.query_all_by_label("Password").count(), 1);
+        driver.harness.event(Event::Text(password.to_owned()));
+        driver.harness.step();
+        driver.key(Key::Enter);
+        let said = driver.harness.query_all_by_label_contains(next).count();
+        assert!(next.is_empty() || said == 1, "{password}");
+    }
+    assert_eq!(driver.harness.query_all_by_label("Password").count(), 0);
+    assert!(redness(&mut driver).0 > 100);
+    // A notice of a password that was not right is no longer there.
+    assert_eq!(driver.app().notice, None);
+
+    // Nobody is asked when there is nothing to know.
+    std::fs::write(&path, "PK\u{3}\u{4}, and no more").unwrap();
+    driver.until("the broken archive is read", |app| app.loading.is_some());
+    driver.settle();
+    assert_eq!(driver.harness.query_all_by_label("Password").count(), 0);
+}
+
+#[test]
 fn a_second_file_is_dropped() {
     let mut driver = Driver::with_text(&cube("1 0 0"));
     let first = driver.picture();
@@ -98,7 +132,7 @@ fn a_second_file_is_dropped() {
         .map(|p| p.file_name().unwrap().to_string_lossy())
         .collect();
     assert_eq!(names, ["gear.iv", "model.iv"]);
-    driver.key(egui::Key::PageUp);
+    driver.key(Key::PageUp);
     assert_eq!(driver.app().title(), "model.iv – ivview");
     assert_eq!(different(&first, &driver.picture()), 0);
     let kept = driver.folder.path().join("config/ivview.json");
