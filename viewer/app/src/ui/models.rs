@@ -91,7 +91,9 @@ impl App {
         let is_reload = self.loading.as_ref().is_some_and(|l| l.is_reload)
             && self.model.as_ref().is_none_or(|m| m.path == model.path)
             && self.navigator.is_some();
-        self.failure = None;
+        if self.failure.take().is_some() {
+            self.left_tab = LeftTab::Model;
+        }
         self.notice = None;
         self.asked = None;
         self.watch = Watch::new(&model.files, Arc::clone(&self.wake));

@@ -40,13 +40,13 @@ impl App {
         let modal = Modal::new(Id::unique("password")).show(ctx, |ui| {
             ui.set_width(280.0);
             ui.heading("Password");
-            ui.label(if asked.is_again {
+            let question = ui.label(if asked.is_again {
                 format!("That was not the password of {name}.")
             } else {
                 format!("{name} takes a password.")
             });
             let field = ui.add(TextEdit::singleline(&mut asked.password).password(true));
-            field.request_focus();
+            field.labelled_by(question.id).request_focus();
             is_given = ui.input(|i| i.key_pressed(Key::Enter));
             ui.horizontal(|ui| {
                 is_given |= ui.button("Open").clicked();

@@ -103,7 +103,7 @@ fn passwords_of_archives_are_asked_for() {
         driver.harness.step();
         driver.key(Key::Enter);
         let said = driver.harness.query_all_by_label_contains(next).count();
-        assert!(next.is_empty() || said == 1, "{password}");
+        assert!(next.is_empty() || said > 0, "{password}");
     }
     assert_eq!(driver.harness.query_all_by_label("Password").count(), 0);
     assert!(redness(&mut driver).0 > 100);
