@@ -2,6 +2,7 @@
 
 use app::ui::Question;
 use egui::{Key, PointerButton};
+use glam::DVec3;
 use viewer::view::{Lens, View, ivv};
 
 use crate::driver::{Driver, different};
@@ -72,8 +73,20 @@ fn standard_views_lenses_and_cameras() {
          DEF Far PerspectiveCamera { position 2 1 20 } Cube { } }",
     );
     let first = driver.picture();
-    driver.key(Key::Num5);
-    assert!(view(&mut driver).forward().z < -0.999);
+    let rows = [
+        (Key::Num1, DVec3::Y),
+        (Key::Num2, DVec3::NEG_Y),
+        (Key::Num3, DVec3::X),
+        (Key::Num4, DVec3::NEG_X),
+        (Key::Num5, DVec3::NEG_Z),
+        (Key::Num6, DVec3::Z),
+    ];
+    for (key, forward) in rows {
+        driver.key(key);
+        let view = view(&mut driver);
+        assert!(view.forward().dot(forward) > 0.999, "{key:?}");
+        assert!(view.eye.dot(forward) < -1.0, "{key:?}: all of it is before the eye");
+    }
     driver.key(Key::P);
     assert!(matches!(view(&mut driver).lens, Lens::Orthographic { .. }));
     driver.key(Key::P);
