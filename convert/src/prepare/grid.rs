@@ -26,7 +26,7 @@ const ROUND: f64 = 6_755_399_441_055_744.0;
 const MAX_F32_STEPS: f64 = (1_u32 << 18) as f64;
 
 /// What the step costs as the scale of a node, in bytes of text.
-const SCALE_BYTES: u64 = 64;
+pub(super) const SCALE_BYTES: u64 = 64;
 
 /// How the instances of a mesh lie in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +36,13 @@ pub(crate) struct Frame {
     /// The place of the first instance, if it is only moved.
     moved_by: DVec3,
     instances: u64,
+}
+
+impl Frame {
+    /// How many there are.
+    pub(super) fn instances(&self) -> u64 {
+        self.instances
+    }
 }
 
 /// The frame of each of the scene's `meshes` meshes; `None` where there is no instance.

@@ -4,6 +4,7 @@
 //! Without such options the scene is taken as it is, and nothing is copied.
 
 mod grid;
+mod lanes;
 mod vertices;
 mod world;
 
@@ -11,7 +12,7 @@ use std::borrow::Cow;
 
 use scenegraph::scene::{Mesh, Scene};
 
-use crate::formats::{Colors, Formats, Normals, Texcoords};
+use crate::formats::{Colors, Formats, Normals, Positions, Texcoords};
 use crate::instancing::TOLERANCE_SHARE;
 use crate::parallel;
 use crate::{Error, Options, Quantize, Up, Weld, sound};
@@ -108,6 +109,11 @@ fn arrange(mesh: &mut Mesh, frame: Option<&grid::Frame>, options: &Options) -> F
     // The codec is made for triangles in such an order.
     if options.optimize || options.compress {
         vertices::order(mesh, options.compress);
+    }
+    if let (true, Positions::U16 { step }, Some(frame)) =
+        (options.compress, formats.positions, frame)
+    {
+        lanes::settle(mesh, step, frame.instances());
     }
     formats
 }

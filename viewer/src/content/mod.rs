@@ -12,9 +12,7 @@ mod surface;
 
 use geometry::bounds::Aabb;
 use glam::DAffine3;
-use scenegraph::scene::{
-    EnvironmentId, Faces, MaterialId, Mesh, MeshId, Scene, TextureId, Topology,
-};
+use scenegraph::scene::{EnvironmentId, Faces, MaterialId, MeshId, Scene, TextureId, Topology};
 
 pub use edits::{Edits, FaceEdit, LightEdit};
 pub use lights::{LightShape, SpotFade, WorldLight, world_lights};
@@ -102,7 +100,7 @@ impl Content {
             content.objects.push(Object {
                 instance: u32::try_from(i).unwrap_or(u32::MAX),
                 mesh: instance.mesh,
-                primitives: primitive_count(mesh),
+                primitives: u32::try_from(mesh.primitive_count()).unwrap_or(u32::MAX),
                 surface: surfaces.index_of(scene, instance.material, instance.environment),
                 texture,
                 look,
@@ -141,15 +139,6 @@ impl Content {
         self.objects
             .partition_point(|object| !object.look.is_transparent)
     }
-}
-
-fn primitive_count(mesh: &Mesh) -> u32 {
-    let corners = match mesh.topology {
-        Topology::Triangles => 3,
-        Topology::Lines => 2,
-        Topology::Points => 1,
-    };
-    u32::try_from(mesh.indices.len() / corners).unwrap_or(u32::MAX)
 }
 
 fn light_sets(scene: &Scene) -> Vec<Vec<u32>> {

@@ -85,7 +85,10 @@ fn standard_views_lenses_and_cameras() {
         driver.key(key);
         let view = view(&mut driver);
         assert!(view.forward().dot(forward) > 0.999, "{key:?}");
-        assert!(view.eye.dot(forward) < -1.0, "{key:?}: all of it is before the eye");
+        assert!(
+            view.eye.dot(forward) < -1.0,
+            "{key:?}: all of it is before the eye"
+        );
     }
     driver.key(Key::P);
     assert!(matches!(view(&mut driver).lens, Lens::Orthographic { .. }));
