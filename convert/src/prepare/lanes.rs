@@ -127,7 +127,7 @@ mod tests {
                 let changes = |i: &usize| *i > 0 && upper[*i] != upper[i - 1];
                 let groups: Vec<usize> = (0..values.len()).collect();
                 let groups = groups.chunks(GROUP);
-                let wanted = groups.filter(|group| group.iter().any(|i| changes(i)));
+                let wanted = groups.filter(|group| group.iter().any(changes));
                 assert_eq!(count as usize, wanted.count(), "{range}: by {by}");
             }
         }
