@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use iv_parser::{Diagnostic, Severity, SourcePos};
 use scenegraph::{FileLoader, Graph, LoadError, Loader};
-use unpack::{Archive, Format};
+use unpack::{Archive, Error, Format};
 
 use super::access::Access;
 use super::archive::{ArchiveLoader, OpenError, model_in};
@@ -111,9 +111,11 @@ fn in_archive(path: &Path, mut opened: Opened, access: &Access) -> Result<Opened
                     read the others";
         opened.remark(Severity::Note, "several-models", message, hint);
     }
-    let content = archive
-        .read(entry)
-        .map_err(|error| format!("`{inside}`: {error}"))?;
+    let content = archive.read(entry).map_err(|error| match error {
+        Error::PasswordNeeded => OpenError::PasswordNeeded,
+        Error::PasswordWrong => OpenError::PasswordWrong,
+        error => OpenError::Other(format!("`{inside}`: {error}")),
+    })?;
     opened.bytes = Bytes::Heap(content);
     opened.unpack(access)?;
     let own = path.canonicalize().unwrap_or_else(|_| path.to_owned());

@@ -248,6 +248,24 @@ fn light_without_shadow_joins_the_first_pass() {
 }
 
 #[test]
+fn what_was_drawn_before_hides_nothing() {
+    let wall =
+        "Separator { Translation { translation 0 0 -3 } Cube { width 4 height 4 depth 1 } }\n";
+    let glass = "Separator { Material { transparency 0.5 emissiveColor 1 1 1 } \
+                 Translation { translation 0 0 9 } Cube { } }\n";
+    let scene = [SUN, wall, glass];
+    let to_wall = at([0.0, 0.0, 3.0], [0.0, 0.0, -3.0]);
+    let to_glass = at([0.0, 0.0, 3.0], [0.0, 0.0, 9.0]);
+    let mut used = stage(&scene);
+    shoot(&mut used, &to_wall);
+    let after = shoot(&mut used, &to_glass);
+    let alone = shoot(&mut stage(&scene), &to_glass);
+    let lit = alone.rgba.as_chunks::<4>().0.iter().filter(|p| p[0] > 20);
+    assert!(lit.count() > 100, "{}", alone.plan.brief());
+    assert!(after.rgba == alone.rgba, "{}", after.plan.brief());
+}
+
+#[test]
 fn what_stands_twice_in_one_place_is_lit_once() {
     let lamps = "PointLight { location -1 4 1 } PointLight { location 2 4 1 }\n";
     for shadows in [Settings::default().shadows, Shadows::None] {

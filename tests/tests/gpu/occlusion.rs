@@ -13,7 +13,8 @@ const PERSPECTIVE: RefLens = RefLens::Perspective {
 };
 
 /// A wall with a window before rows of cubes, a floor, a lamp on either side of the wall, thick
-/// lines on top of the wall, a sphere that looks around its edge, glass on both sides.
+/// lines on top of the wall, a sphere that looks around its edge, glass on both sides; before it a
+/// triangle that stands there twice, in two colours.
 fn house() -> String {
     let mut text = String::from(
         "#Inventor V2.1 ascii\n\
@@ -31,6 +32,11 @@ fn house() -> String {
          Translation { translation 1 1 2 } Cube { } }\n\
          Separator { Material { transparency 0.5 diffuseColor 1 0 0 } \
          Translation { translation 1 1 -2 } Cube { width 0.5 height 0.5 depth 0.5 } }\n",
+    );
+    text.push_str(
+        "Separator { Material { diffuseColor [ 1 0 0, 0 1 0 ] } MaterialBinding { value PER_FACE } \
+         Coordinate3 { point [ 0 2 0.4, 2 2 0.4, 1 2.8 0.4 ] } \
+         IndexedFaceSet { coordIndex [ 0, 1, 2, -1, 0, 1, 2, -1 ] } }\n",
     );
     for i in 0..60 {
         let (x, y, z) = (i % 10, i / 10 % 3, i / 30);
@@ -139,6 +145,12 @@ fn what_lies_behind_is_left_out_and_the_picture_stays() {
         ),
         ("rays", &house, with(|s| s.shadows = Shadows::Rays), 30),
         ("headlight", &unlit, standard, 30),
+        (
+            "shown volumes, which are not asked about",
+            &house,
+            with(|s| s.overlay.has_volumes = true),
+            0,
+        ),
         (
             "cut open",
             &house,

@@ -7,14 +7,12 @@
 use super::plan::{Draw, Pass, PassKind, Plan, Skip, SkipReason};
 
 impl Plan {
-    /// All objects that are drawn, ascending.
+    /// All objects that a plan with a pass for the depth draws, ascending.
     pub fn objects_drawn(&self) -> Vec<u32> {
-        let passes = self.passes.iter().filter(|pass| {
-            matches!(
-                pass.kind,
-                PassKind::First { .. } | PassKind::Transparent | PassKind::Depth { .. }
-            )
-        });
+        let passes = self
+            .passes
+            .iter()
+            .filter(|pass| matches!(pass.kind, PassKind::Depth { .. } | PassKind::Transparent));
         let draws = passes.flat_map(|pass| &pass.draws);
         let mut objects: Vec<u32> = draws.flat_map(|draw| draw.objects.clone()).collect();
         objects.sort_unstable();
@@ -22,8 +20,8 @@ impl Plan {
         objects
     }
 
-    /// Parts the pass for the depth, which the plan begins with, in two: one that begins, without
-    /// the objects of `hidden`, and one for these. False if there is no such pass.
+    /// Takes the objects of `hidden` out of the pass for the depth, which the plan begins with, and
+    /// gives them a pass behind it, unless pass 1 begins anew. False if there is no such pass.
     pub fn part_depth(&mut self, hidden: &[bool]) -> bool {
         let Some(first) = self.passes.first() else {
             return false;
@@ -34,9 +32,20 @@ impl Plan {
         let mut rest = first.clone();
         let is_hidden = |i: u32| hidden.get(i as usize) == Some(&true);
         retain(&mut self.passes[0].draws, |i| !is_hidden(i));
-        rest.kind = PassKind::Depth { begins: false };
-        retain(&mut rest.draws, is_hidden);
-        self.passes.insert(1, rest);
+        let is_used = |pass: &Pass| {
+            matches!(
+                pass.kind,
+                PassKind::First {
+                    has_depth: true,
+                    ..
+                }
+            )
+        };
+        if self.passes.iter().any(is_used) {
+            rest.kind = PassKind::Depth { begins: false };
+            retain(&mut rest.draws, is_hidden);
+            self.passes.insert(1, rest);
+        }
         true
     }
 

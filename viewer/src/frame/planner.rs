@@ -1,7 +1,8 @@
 //! From a scene and a view to the passes of a frame, leaving out what the view does not need.
 //!
 //! Pass 1 draws emission, ambient light and the first light together: one without shadows in view
-//! if there is one, else behind a pass for the depth and a pass that makes its shadows. Each
+//! if there is one, else behind a pass for the depth and a pass that makes its shadows. A pass for
+//! the depth also comes first where it is asked what lies behind (`occlusion.rs`). Each
 //! further light is a pass that adds, behind its shadows. Transparent objects come last, each with
 //! all its lights at once.
 
@@ -31,7 +32,8 @@ pub struct Planner<'a> {
 }
 
 /// Plans a frame. `near` is the distance of the near plane of a perspective. With
-/// `tests_occlusion` it begins with a pass for the depth in any case.
+/// `tests_occlusion` it begins with a pass for the depth in any case; pass 1 begins anew where it
+/// needs none, so that it draws surfaces in one place in the same order.
 pub fn plan(
     content: &Content,
     view: &View,
@@ -100,8 +102,7 @@ impl Planner<'_> {
             if self.tests_occlusion {
                 passes.push(self.depth());
             }
-            let has_depth = self.tests_occlusion;
-            passes.push(self.first(None, ShadowLookup::None, has_depth, false));
+            passes.push(self.first(None, ShadowLookup::None, false, false));
         } else {
             self.first_passes(needed.remove(first), &mut passes);
         }
@@ -109,7 +110,11 @@ impl Planner<'_> {
             self.light_passes(need, &mut passes);
         }
         passes.extend(self.transparent());
-        passes.retain(|pass| !pass.draws.is_empty() || !pass.volumes.is_empty());
+        // Pass 1 clears the depth for what follows, also where it draws nothing.
+        passes.retain(|pass| {
+            let is_first = matches!(pass.kind, PassKind::First { .. });
+            is_first || !pass.draws.is_empty() || !pass.volumes.is_empty()
+        });
         Plan {
             passes,
             lights: self.lights,
@@ -186,9 +191,8 @@ impl Planner<'_> {
         let kind = shadow_pass.as_ref().map(|pass| pass.kind);
         let has_volumes = matches!(kind, Some(PassKind::Volumes { .. }));
         // A map is made from the scene; volumes and rays ask what is seen.
-        let has_rays = matches!(kind, Some(PassKind::Rays { .. }));
-        let has_depth = has_volumes || has_rays || self.tests_occlusion;
-        if has_depth {
+        let has_depth = has_volumes || matches!(kind, Some(PassKind::Rays { .. }));
+        if has_depth || self.tests_occlusion {
             passes.push(self.depth());
         }
         passes.extend(shadow_pass);

@@ -5,12 +5,11 @@
 //! was hidden.
 
 use bytemuck::{Pod, Zeroable};
-use geometry::bounds::Aabb;
 
 use super::binding::{self, STORAGE, UNIFORM};
 use super::device::{Gpu, GpuError};
 use super::targets::Targets;
-use crate::content::{Content, Primitive};
+use crate::content::{Content, Object, Primitive};
 use crate::frame::{Occlusion, Settings};
 use crate::shader::{self, Frame};
 use crate::view::{Lens, Region, View};
@@ -27,14 +26,14 @@ const PAUSE: u32 = 30;
 const TILE: u32 = 8;
 /// Workgroups along one axis at most.
 const MAX_ROW: u32 = 32_768;
-/// f32 places of boxes, as shares of their distance to the eye: a rounding each of centre, half size
-/// and their sum, and as much again.
+/// Roundings of places in f32, of boxes and of the vertices in them, as a share of the lengths that
+/// are added up: each sum is of a few.
 const BOX_SHARE: f64 = 6.0 * f32::EPSILON as f64;
 /// A share of the depth: lines and points are drawn 2^-13 nearer than they are, and as much again is
 /// far more than the roundings of a product with a matrix and of an interpolated depth.
 const DEPTH_SHARE: f32 = 1.0 / 4096.0;
-/// The same for parallel views, whose depth is 1 at most anywhere.
-const PARALLEL_DEPTH: f32 = 1e-5;
+/// The same for parallel views, whose depth is a difference of numbers of up to some hundreds.
+const PARALLEL_DEPTH: f32 = 2e-4;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -52,6 +51,8 @@ pub struct OcclusionTest {
     /// By object, from the last picture: where to begin. Empty at first.
     hidden: Vec<bool>,
     pause: u32,
+    /// A picture of these objects was drawn. The first is not kept waiting.
+    has_begun: bool,
 }
 
 struct Kernels {
@@ -66,6 +67,7 @@ impl OcclusionTest {
     pub fn forget(&mut self) {
         self.hidden.clear();
         self.pause = 0;
+        self.has_begun = false;
     }
 
     /// Whether to ask for this picture.
@@ -76,19 +78,23 @@ impl OcclusionTest {
         region: &Region,
         size: (u32, u32),
     ) -> bool {
-        // Parts of a larger picture are drawn once.
+        // Parts of a larger picture are drawn once. Volumes are shown of all lights, also of those
+        // that reach nothing in sight.
         let is_whole = (region.x, region.y) == (0, 0) && (region.width, region.height) == size;
+        if !is_whole || settings.overlay.has_volumes {
+            return false;
+        }
         match settings.occlusion {
             Occlusion::Off => false,
-            Occlusion::On => is_whole,
+            Occlusion::On => true,
             Occlusion::Auto => {
-                if self.pause > 0 {
-                    self.pause -= 1;
+                let is_first = !std::mem::replace(&mut self.has_begun, true);
+                if is_first || self.pause > 0 {
+                    self.pause = self.pause.saturating_sub(1);
                     return false;
                 }
                 let primitives = content.objects.iter().map(|o| u64::from(o.primitives));
-                is_whole
-                    && content.objects.len() >= LEAST_OBJECTS
+                content.objects.len() >= LEAST_OBJECTS
                     && primitives.sum::<u64>() >= LEAST_PRIMITIVES
             }
         }
@@ -115,7 +121,7 @@ impl OcclusionTest {
         }
         let boxes: Vec<[[f32; 4]; 2]> = objects
             .iter()
-            .map(|&i| rel_box(&content.objects[i as usize].bounds, view))
+            .map(|&i| rel_box(&content.objects[i as usize], view))
             .collect();
         let test = test(content, targets, view, frame, boxes.len() as u32);
         let stored = |label, size: u64, usage| {
@@ -255,10 +261,13 @@ impl Kernels {
 }
 
 /// A box around the box, in f32 relative to the eye: centre and half size.
-fn rel_box(bounds: &Aabb, view: &View) -> [[f32; 4]; 2] {
-    let center = bounds.center() - view.eye;
-    let half = bounds.size() * 0.5;
-    let margin = BOX_SHARE * (center.abs().max_element() + half.max_element());
+fn rel_box(object: &Object, view: &View) -> [[f32; 4]; 2] {
+    let center = object.bounds.center() - view.eye;
+    let half = object.bounds.size() * 0.5;
+    // Vertices are turned around the mesh's own origin, which may be far from them.
+    let origin = object.world_from_mesh.translation - view.eye;
+    let reach = center.abs().max_element() + half.max_element();
+    let margin = BOX_SHARE * (reach + origin.abs().max_element());
     [
         center.extend(0.0).as_vec4().to_array(),
         (half + margin).extend(0.0).as_vec4().to_array(),

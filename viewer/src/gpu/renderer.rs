@@ -1,5 +1,5 @@
 //! A scene on the device, and the one way to draw it: plan, prepare what the plan needs, record,
-//! submit, wait.
+//! submit, wait; in large scenes what lies behind is asked in between.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -307,10 +307,10 @@ impl Renderer {
         numbers: &Frame,
         report: &mut FrameReport,
     ) -> Result<(), GpuError> {
-        let objects = plan.objects_drawn();
         if !plan.part_depth(self.occlusion.hidden()) {
             return Ok(());
         }
+        let objects = plan.objects_drawn();
         let mut encoder = self.encoder();
         let mut occlusion = std::mem::take(&mut self.occlusion);
         if let Some(recorder) = self.recorder(plan, scenery) {

@@ -50,8 +50,10 @@ impl App {
         self.counters.passes += 1;
         let ctx = ui.ctx().clone();
         self.receive(&ctx);
-        for command in command::pressed(&ctx) {
-            self.run(command, &ctx);
+        if self.asked.is_none() {
+            for command in command::pressed(&ctx) {
+                self.run(command, &ctx);
+            }
         }
         self.take_dropped(&ctx);
         self.learn_letters(&ctx);

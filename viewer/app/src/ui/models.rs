@@ -9,7 +9,6 @@ use egui::Context;
 use iv_parser::Diagnostic;
 
 use super::overlays::Overlays;
-use super::password::Asked;
 use super::state::{App, Failure, LeftTab};
 use crate::cli::camera::Viewpoint;
 use crate::load::{Device, Loading, Sent};
@@ -47,7 +46,8 @@ impl App {
 
     pub(super) fn load(&mut self, path: &Path, is_reload: bool) {
         let wake = Arc::clone(&self.wake);
-        let loading = Loading::begin(path, &self.args, &self.device, is_reload, wake);
+        let args = self.args_for(path);
+        let loading = Loading::begin(path, &args, &self.device, is_reload, wake);
         self.loading = Some(loading);
     }
 
@@ -142,7 +142,7 @@ impl App {
             ""
         };
         self.fail(format!("{}: {why}{kept}", loading.path.display()));
-        self.asked = Asked::after(why, &loading.path);
+        self.ask_password(why, &loading.path, loading.is_reload);
         if self.model.is_none() {
             let file = std::slice::from_ref(&loading.path);
             self.watch = Watch::new(file, Arc::clone(&self.wake));

@@ -49,13 +49,16 @@ impl App {
 
     /// The fields that the source has at a place.
     fn source(&mut self, ui: &mut Ui, pos: SourcePos) {
+        let Some(path) = self.model.as_ref().map(|model| model.path.clone()) else {
+            return;
+        };
+        let args = self.args_for(&path);
         let Some(model) = &mut self.model else {
             return;
         };
-        let path = model.path.clone();
         let fields = model
             .fields
-            .get_or_insert_with(|| Fields::new(&path, &self.args, Arc::clone(&self.wake)));
+            .get_or_insert_with(|| Fields::new(&path, &args, Arc::clone(&self.wake)));
         let Some(nodes) = fields.at(pos) else {
             ui.weak("reading the source…");
             return;

@@ -1,5 +1,6 @@
 //! What the window's contents consist of, what is told to the user and what is kept.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -123,6 +124,7 @@ pub struct App {
     pub notice: Option<Notice>,
     pub(super) dialogs: Dialogs,
     pub(super) asked: Option<Asked>,
+    pub(super) passwords: HashMap<PathBuf, String>,
     pub(super) knows_all_letters: bool,
     /// Counts.
     pub counters: Counters,
@@ -193,6 +195,7 @@ impl App {
             notice: None,
             dialogs: Dialogs::default(),
             asked: None,
+            passwords: HashMap::new(),
             knows_all_letters: false,
             counters: Counters::default(),
             lost_in_a_row: 0,

@@ -168,13 +168,15 @@ impl ApplicationHandler<Wake> for Shell<'_> {
         }
     }
 
-    fn exiting(&mut self, _: &ActiveEventLoop) {
+    fn exiting(&mut self, event_loop: &ActiveEventLoop) {
         // Not every system tells of moves.
         if let Some(open) = &self.window
             && !open.window.is_maximized()
-            && let Ok(place) = open.window.outer_position()
+            && let Ok(place) = open.window.outer_position().map(|p| [p.x, p.y])
+            // A window that is only an icon has a place beyond all screens.
+            && event_loop.available_monitors().any(|m| shows(&m, place))
         {
-            self.app.config.place = Some([place.x, place.y]);
+            self.app.config.place = Some(place);
         }
         self.app.remember();
     }
@@ -194,10 +196,12 @@ impl ApplicationHandler<Wake> for Shell<'_> {
 fn shows(monitor: &MonitorHandle, [x, y]: [i32; 2]) -> bool {
     /// Pixels of a title bar that are to be on the screen.
     const BAR: [i64; 2] = [100, 10];
+    /// Pixels of a border that may be beyond it.
+    const BORDER: i64 = 16;
     let (from, size) = (monitor.position(), monitor.size());
     let is_within = |at: i32, from: i32, length: u32, least: i64| {
         let from = i64::from(from);
-        (from..=from + i64::from(length) - least).contains(&i64::from(at))
+        (from - BORDER..=from + i64::from(length) - least).contains(&i64::from(at))
     };
     is_within(x, from.x, size.width, BAR[0]) && is_within(y, from.y, size.height, BAR[1])
 }

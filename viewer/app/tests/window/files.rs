@@ -110,6 +110,16 @@ fn passwords_of_archives_are_asked_for() {
     // A notice of a password that was not right is no longer there.
     assert_eq!(driver.app().notice, None);
 
+    // Escape is no answer, and changes nothing else.
+    driver.app().select(Some(0));
+    std::fs::copy(&path, driver.folder.path().join("other.ivz")).unwrap();
+    let other = driver.folder.path().join("other.ivz");
+    driver.drop_file(&other);
+    assert_eq!(driver.harness.query_all_by_label("Password").count(), 1);
+    driver.key(Key::Escape);
+    assert_eq!(driver.harness.query_all_by_label("Password").count(), 0);
+    assert_eq!(driver.app().selected, Some(0));
+
     // Nobody is asked when there is nothing to know.
     std::fs::write(&path, "PK\u{3}\u{4}, and no more").unwrap();
     driver.until("the broken archive is read", |app| app.loading.is_some());
