@@ -76,6 +76,10 @@ impl Place {
         command.args(args).args(small);
         // Mesa's layer that chooses devices complains where there is no desktop.
         command.env("NODEVICE_SELECT", "1");
+        // A window would wait for somebody to close it.
+        for display in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+            command.env_remove(display);
+        }
         let output = command.output().unwrap();
         Run {
             code: output.status.code().unwrap(),
