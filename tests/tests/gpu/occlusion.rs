@@ -100,12 +100,17 @@ fn compare(text: &str, settings: &Settings) -> usize {
         let all = shoot(camera, Occlusion::Off);
         assert_eq!(hidden(&all.plan), 0);
         // Once from where the last view left off, and once from what is right already.
+        let mut before = 0;
         for time in 0..2 {
             let some = shoot(camera, Occlusion::On);
             let differing = differing(&all, &some);
             assert!(differing == 0, "view {i}, time {time}: {differing} pixels");
             assert_eq!(some.plan.passes.len(), some.report.passes.len());
-            most = most.max(hidden(&some.plan));
+            // What was hidden is asked about again, and stays so.
+            let hidden = hidden(&some.plan);
+            assert!(hidden >= before, "view {i}: {before}, then {hidden} hidden");
+            before = hidden;
+            most = most.max(hidden);
         }
     }
     most

@@ -307,10 +307,11 @@ impl Renderer {
         numbers: &Frame,
         report: &mut FrameReport,
     ) -> Result<(), GpuError> {
+        // Also those that are left out of the first pass.
+        let objects = plan.objects_drawn();
         if !plan.part_depth(self.occlusion.hidden()) {
             return Ok(());
         }
-        let objects = plan.objects_drawn();
         let mut encoder = self.encoder();
         let mut occlusion = std::mem::take(&mut self.occlusion);
         if let Some(recorder) = self.recorder(plan, scenery) {
